@@ -168,8 +168,7 @@ CollectionController::CollectionController(const Workbench& bench)
   connect(thumbnails_, &ThumbnailQueue::made, list_, &SceneList::setThumbnail);
   connect(&bench.opener, &SceneOpener::isCollection, this, &CollectionController::openCollection);
   bench.session.on_changed([this](Parts parts) {
-    const bool is_between = !bench_.session.scene() && !bench_.opener.loading().isEmpty();
-    if (parts.has(Part::Scene) && !is_between) markOpen();
+    if (parts.has(Part::Scene)) markOpen();
   });
 }
 
@@ -281,10 +280,11 @@ void CollectionController::step(int step) {
 
 void CollectionController::open(const QString& path) {
   wanted_ = path;
-  if (bench_.session.scene()) {
-    former_ = entries_.contains(openPath()) ? bench_.session.generation() : 0;
+  std::function<void()> then;
+  if (entries_.contains(openPath())) {
+    then = [this, former = bench_.session.generation()] { closeIfUntouched(former); };
   }
-  bench_.opener.open(path, [this] { closeIfUntouched(std::exchange(former_, 0)); });
+  bench_.opener.open(path, std::move(then));
 }
 
 bool CollectionController::isTouched(const OpenScene& scene) const {

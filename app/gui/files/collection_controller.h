@@ -11,7 +11,6 @@
 #include <QString>
 #include <QTimer>
 
-#include <cstdint>
 #include <optional>
 
 namespace episcope {
@@ -50,8 +49,7 @@ class CollectionController : public QObject {
   ThumbnailQueue* thumbnails_;
   QHash<QString, io::CollectionEntry> entries_;  // by path
   QString folder_;
-  QString wanted_;            // by the last step, maybe still loading
-  std::uint64_t former_ = 0;  // the scene that it is opened in place of; 0 = none
+  QString wanted_;  // by the last step, maybe still loading
   quint64 job_ = 0;
   quint64 search_ = 0;  // number of the newest one
 };

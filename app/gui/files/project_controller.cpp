@@ -480,9 +480,9 @@ void SceneChooser::fill() {
       list_->findData(QVariant::fromValue<qulonglong>(bench_.session.generation())));
   const bool is_empty = list_->count() == 0;
   list_->setEnabled(!is_empty);
-  list_->setPlaceholderText(bench_.viewer_area.isPreviewing() ? tr("opening …")
-                            : is_empty                        ? tr("nothing is open")
-                                                              : tr("none of these is shown"));
+  list_->setPlaceholderText(!is_empty                           ? tr("none of these is shown")
+                            : bench_.viewer_area.isPreviewing() ? tr("opening …")
+                                                                : tr("nothing is open"));
 }
 
 WindowTitle::WindowTitle(const Workbench& bench, const Autosave& autosave,

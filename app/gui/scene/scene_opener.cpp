@@ -197,14 +197,6 @@ SceneOpener::SceneOpener(Session& session, Jobs& jobs, ViewerArea& viewer_area,
   connect(&jobs_, &Jobs::failed, this, [this](const QString& sentence, quint64 job) {
     if (job == loading_job_) last_failure_ = sentence;
   });
-  // One that is chosen meanwhile is drawn once all know of it.
-  session_.on_changed([this](Parts parts) {
-    if (!parts.has(Part::Scene)) return;
-    const auto uncover = [this] {
-      if (session_.scene()) viewer_area_.endPreview();
-    };
-    QMetaObject::invokeMethod(this, uncover, Qt::QueuedConnection);
-  });
 }
 
 void SceneOpener::open(const QString& input_as_given, std::function<void()> then,
@@ -287,11 +279,10 @@ QString SceneOpener::reopenable() const {
   return is_builtin(input) ? QString() : input;
 }
 
-LoadOptions SceneOpener::loadOptions(quint64 number, const Load& load) {
+LoadOptions SceneOpener::loadOptions(quint64 number, const ParameterSet& given) {
   LoadOptions options;
   options.cache_folder = cache_folder_;
-  options.open = io::open_schema().parse(load.given);
-  if (!load.is_added) return options;  // what is shown stays until it is read again
+  options.open = io::open_schema().parse(given);
   // The reading thread ends with the jobs, after this object: posts go by way of the jobs.
   options.open.on_center_view = [this, number, post = queued_post(&jobs_)](
                                     const Image<std::uint8_t>& center, const LightFieldInfo& info,
@@ -299,12 +290,8 @@ LoadOptions SceneOpener::loadOptions(quint64 number, const Load& load) {
     auto picture = std::make_shared<RgbaImage>(rgba_of(center));
     post([this, number, picture, name = QString::fromStdString(info.name)] {
       if (number != number_ || loading_job_ == 0) return;
-      // Nothing that is said of another light field stands beside the preview.
-      if (session_.scene()) session_.show_nothing();
-      showOnceTold(number, [this, picture, name] {
-        viewer_area_.showPreview(to_qimage(std::move(*picture)),
-                                 tr("%1 · reading all views …").arg(name));
-      });
+      viewer_area_.showPreview(to_qimage(std::move(*picture)),
+                               tr("%1 · reading all views …").arg(name));
     });
   };
   options.open.on_center_epis = [this, number,
@@ -312,21 +299,12 @@ LoadOptions SceneOpener::loadOptions(quint64 number, const Load& load) {
     auto horizontal = std::make_shared<RgbaImage>(rgba_of(epis.horizontal));
     auto vertical = std::make_shared<RgbaImage>(rgba_of(epis.vertical));
     post([this, number, horizontal, vertical] {
-      showOnceTold(number, [this, horizontal, vertical] {
-        viewer_area_.showPreviewEpis(to_qimage(std::move(*horizontal)),
-                                     to_qimage(std::move(*vertical)));
-      });
+      if (number != number_ || loading_job_ == 0) return;
+      viewer_area_.showPreviewEpis(to_qimage(std::move(*horizontal)),
+                                   to_qimage(std::move(*vertical)));
     });
   };
   return options;
-}
-
-// The session tells its changes after the current turn.
-void SceneOpener::showOnceTold(quint64 number, const std::function<void()>& show) {
-  const auto show_it = [this, number, show] {
-    if (number == number_ && loading_job_ != 0) show();
-  };
-  QMetaObject::invokeMethod(this, show_it, Qt::QueuedConnection);
 }
 
 void SceneOpener::load(const Load& load) {
@@ -350,7 +328,7 @@ void SceneOpener::start(const Load& load) {
   if (!session_.scene()) viewer_area_.canvas()->showLoading(loading_name_, -1);
   loading_job_ = jobs_.start<Opened>(
       Lane::Open, tr("Opening %1").arg(loading_name_),
-      [path = load.input.toStdString(), options = loadOptions(number, load),
+      [path = load.input.toStdString(), options = loadOptions(number, load.given),
        is_remembered = load.is_remembered](const Progress& progress) {
         return read_or_question([&] {
           return is_remembered ? read_as_remembered(path, options, progress)
@@ -431,7 +409,6 @@ void SceneOpener::end(quint64 number, const Load& load) {
   failed_input_ = last_failure_.isEmpty() ? QString() : load.input;
   if (!last_failure_.isEmpty()) told_failure_ = last_failure_;
   viewer_area_.endPreview();
-  scenes_.showLatest();
   emit changed();
   if (!session_.scene() && last_failure_.isEmpty()) viewer_area_.canvas()->showEmpty();
   if (!session_.scene() && !last_failure_.isEmpty())

@@ -21,8 +21,7 @@ class SceneSwitcher;
 class ViewerArea;
 
 /// Opens light fields in the background, and asks if files leave their reading open. Shows the
-/// center view as soon as it is read, and nothing of the light field before, which comes back if
-/// loading fails.
+/// center view as soon as it is read; the previous scene stays until loading succeeds.
 class SceneOpener : public QObject {
   Q_OBJECT
 
@@ -89,8 +88,7 @@ class SceneOpener : public QObject {
   void load(const Load& load);
   void leave(const Load& load, const std::function<void()>& go_on);
   void start(const Load& load);
-  [[nodiscard]] LoadOptions loadOptions(quint64 number, const Load& load);
-  void showOnceTold(quint64 number, const std::function<void()>& show);
+  [[nodiscard]] LoadOptions loadOptions(quint64 number, const ParameterSet& given);
   void showLoading(quint64 job, double fraction);
   void finish(const Load& load, const std::shared_ptr<const Scene>& scene);
   void end(quint64 number, const Load& load);

@@ -90,8 +90,8 @@ refused("a/drawn.h5: exists and holds labels of other strokes.*--overwrite" labe
 refused("a/drawn.h5: exists and holds labels with --regularizer .*--overwrite" label a
         -o a/drawn.h5 --features image --regularizer none)
 expect_kept(a/drawn.h5)
-expect("other strokes when asked" 0 ARGS label a --scribbles b/labels.h5 -o a/drawn.h5
-       --features image --regularizer view --overwrite)
+expect("other parameters when asked" 0 ARGS label a -o a/drawn.h5 --features image
+       --regularizer none --overwrite)
 file(REMOVE "${WORK}/a/drawn.h5")
 
 # Maps do not say what made them.

@@ -16,8 +16,6 @@
 #include <QSlider>
 #include <QUrl>
 
-#include <utility>
-
 namespace episcope::in_collection_window_test {
 
 class CollectionWindowTest : public QObject {
@@ -28,7 +26,6 @@ class CollectionWindowTest : public QObject {
   void droppedFolder_isListed();
   void doubleClick_andReturn_open();
   void pageKeys_goFromSceneToScene();
-  void steppingOn_whileOneIsRead_leavesOneOpen();
   void steppingThrough_keepsOpenWhatWasWorkedOn();
   void filterAndOrder_chooseRows();
   void emptyFolder_saysSo();
@@ -138,28 +135,6 @@ void CollectionWindowTest::pageKeys_goFromSceneToScene() {
   f.key(Qt::Key_PageDown);
   f.key(Qt::Key_PageUp);
   QTRY_COMPARE_WITH_TIMEOUT(open_input(f), folder + "/cotton", kScenePatience);
-}
-
-void CollectionWindowTest::steppingOn_whileOneIsRead_leavesOneOpen() {
-  WindowFixture f;
-  const QString root = make_collection(f, {"a", "b", "c"});
-  open_collection(f, root, 3);
-  f.trigger("collection.next");
-  QTRY_COMPARE_WITH_TIMEOUT(open_input(f), root + "/a", kScenePatience);
-  f.trigger("overlay.truth");
-  bool has_stepped_on = false;
-  connect(&f.window.bench().viewer_area, &ViewerArea::previewChanged, this,
-          [&](bool is_previewing) {
-            if (!is_previewing || std::exchange(has_stepped_on, true)) return;
-            f.trigger("collection.next");
-          });
-
-  f.trigger("collection.next");
-
-  QTRY_COMPARE_WITH_TIMEOUT(open_input(f), root + "/c", kScenePatience);
-  QVERIFY(has_stepped_on);
-  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().session.scenes().size(), 1U, kPatience);
-  QCOMPARE(f.window.bench().overlay.quantity(), render::Quantity::Truth);
 }
 
 void CollectionWindowTest::steppingThrough_keepsOpenWhatWasWorkedOn() {

@@ -2,7 +2,6 @@
 #include "app/gui/estimate/result_export.h"
 #include "app/gui/files/file_controller.h"
 #include "app/gui/files/project_controller.h"
-#include "app/gui/scene/scene_switcher.h"
 #include "app/gui/shell/frame.h"
 #include "app/session/load_scene.h"
 #include "engine/core/error.h"
@@ -14,7 +13,6 @@
 #include "widgets/controls/message_bar.h"
 #include "widgets/controls/number_spin.h"
 #include "widgets/controls/parameter_form.h"
-#include "widgets/panels/color_bar.h"
 
 #include <QAction>
 #include <QComboBox>
@@ -74,8 +72,6 @@ class OpeningTest : public QObject {
   void openedFile_isShown();
   void folderOfASingleLightField_opensIt();
   void epis_areDrawnBeforeTheChecksEnd();
-  void preview_hidesTheLightFieldBefore();
-  void preview_givesWayToAnotherThatIsChosen();
   void readAgain_showsWhatWasWrittenMeanwhile();
   void builtinScene_isEstimatedAtOnce();
   void builtinScenes_areChosenFromAList();
@@ -126,56 +122,6 @@ void OpeningTest::epis_areDrawnBeforeTheChecksEnd() {
 
   QTRY_VERIFY_WITH_TIMEOUT(bench.session.scene(), kScenePatience);
   QVERIFY(was_drawn);
-}
-
-void OpeningTest::preview_hidesTheLightFieldBefore() {
-  WindowFixture f;
-  f.openSmall();
-  f.runAndWait();
-  const QString other = f.writeScene("slant", WindowFixture::smallOptions());
-  const Workbench& bench = f.window.bench();
-  const std::uint64_t before = bench.session.generation();
-  const auto* title = f.window.findChild<QLabel*>("info.title");
-  QTRY_VERIFY_WITH_TIMEOUT(bench.viewer_area.colorBar()->isVisible(), kPatience);
-  bool was_seen = false;
-  connect(&bench.viewer_area, &ViewerArea::previewChanged, this, [&](bool is_previewing) {
-    if (!is_previewing) return;
-    was_seen = true;
-    QVERIFY(!bench.session.scene());
-    QVERIFY(!bench.viewer_area.colorBar()->isVisible());
-    QCOMPARE(title->text(), QString("Opening …"));
-    QVERIFY(!bench.commands.find("estimate.run")->isEnabled());
-    bench.jobs.cancelLane(Lane::Open);
-  });
-
-  bench.opener.open(other);
-
-  QTRY_VERIFY_WITH_TIMEOUT(was_seen, kScenePatience);
-  QTRY_COMPARE_WITH_TIMEOUT(bench.session.generation(), before, kScenePatience);
-  QTRY_VERIFY_WITH_TIMEOUT(bench.viewer_area.colorBar()->isVisible(), kPatience);
-  QVERIFY(!bench.viewer_area.isPreviewing());
-}
-
-void OpeningTest::preview_givesWayToAnotherThatIsChosen() {
-  WindowFixture f;
-  f.openSmall();
-  const QString other = f.writeScene("slant", WindowFixture::smallOptions());
-  const Workbench& bench = f.window.bench();
-  const std::uint64_t before = bench.session.generation();
-  bool was_drawn = false;
-  connect(&bench.viewer_area, &ViewerArea::previewChanged, this, [&](bool is_previewing) {
-    if (is_previewing) {
-      bench.scenes.show(before);
-    } else {
-      was_drawn |= bench.session.generation() == before;
-    }
-  });
-
-  bench.opener.open(other);
-
-  QTRY_VERIFY_WITH_TIMEOUT(was_drawn, kScenePatience);
-  QTRY_VERIFY_WITH_TIMEOUT(bench.session.generation() != before, kScenePatience);
-  QCOMPARE(bench.session.scenes().size(), 2U);
 }
 
 void OpeningTest::folderOfASingleLightField_opensIt() {
