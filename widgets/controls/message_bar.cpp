@@ -149,7 +149,7 @@ namespace {
 
 constexpr int kBarSteps = 1000;
 constexpr int kBarHeight = 4;
-constexpr int kRowSpacing = 1;
+constexpr int kRowSpacing = 0;
 constexpr int kRowsInSight = 2;
 
 }  // namespace
