@@ -126,24 +126,24 @@ std::string sign_warning(const ConventionReport& report) {
 namespace {
 
 /// Kinds of files that were used are plurals.
-std::string counted(const FileUse& use) {
+std::string counted_kind(const FileUse& use) {
   const bool is_single = use.is_used && use.count == 1 && use.kind.ends_with('s');
-  const std::string kind = is_single ? use.kind.substr(0, use.kind.size() - 1) : use.kind;
-  return std::to_string(use.count) + " " + kind;
+  return is_single ? use.kind.substr(0, use.kind.size() - 1) : use.kind;
 }
 
 }  // namespace
 
-std::string files_text(const ConventionReport& report) {
+std::string files_text(const ConventionReport& report,
+                       const std::function<std::string(const std::string&)>& words) {
   std::string used;
   std::string unused;
   for (const FileUse& use : report.files) {
     std::string& text = use.is_used ? used : unused;
-    text += (text.empty() ? "" : ", ") + counted(use);
+    text += (text.empty() ? "" : ", ") + std::to_string(use.count) + " " + words(counted_kind(use));
     if (!use.is_used && use.kind != use.example) text += " (" + use.example + ")";
   }
   if (unused.empty()) return used;
-  return (used.empty() ? "" : used + "; ") + "not used: " + unused;
+  return (used.empty() ? "" : used + "; ") + words(kNotUsed) + unused;
 }
 
 Interval extent(const DisparityView& view) {

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -45,8 +46,12 @@ struct SceneSummary {
 /// A warning that disparities may be negated, where near and far were not told apart; else empty.
 [[nodiscard]] std::string sign_warning(const ConventionReport& report);
 
-/// "81 views, 1 disparity; not used: 3 *.txt (notes.txt, …)". Empty if no folder was read.
-[[nodiscard]] std::string files_text(const ConventionReport& report);
+/// "81 views, 1 disparity; not used: 3 *.txt (notes.txt, …)"; `words` translates kinds and
+/// kNotUsed. Empty if no folder was read.
+inline constexpr const char* kNotUsed = "not used: ";
+[[nodiscard]] std::string files_text(
+    const ConventionReport& report,
+    const std::function<std::string(const std::string&)>& words = std::identity{});
 
 /// Range of disparities of a scene for display: of the truth in the center view (or the view it
 /// covers, and both layers), unless it is impossible, else as the files promise; {0, 0} if neither

@@ -38,8 +38,6 @@ class Session {
   void add(std::shared_ptr<const Scene> scene, std::string input);
   /// Closes the scene that is shown: nothing is shown then.
   void close();
-  /// Sets the scene that is shown aside: nothing is shown then.
-  void show_nothing();
 
   /// All open scenes, in the order in which they were opened.
   [[nodiscard]] std::vector<const OpenScene*> scenes() const;
@@ -231,6 +229,7 @@ class Session {
     if (now_->scene) set(now_->place.*value, wanted, part);
   }
   void deliver();
+  void show_nothing();
   [[nodiscard]] OpenScene* open_scene(std::uint64_t id) const;
   /// Null for an unknown id.
   [[nodiscard]] EstimateEntry* entry_of_any_scene(int id) const;

@@ -346,15 +346,10 @@ QString by_whom(const std::string& finding, bool was_chosen) {
 
 // "81 views; not used: 2 results (a.h5)".
 QString files_words(const ConventionReport& convention) {
-  static const QRegularExpression kind("(?<=\\d )[a-z]+( [a-z]+)*");
-  QString text = QString::fromStdString(files_text(convention));
-  text.replace("not used: ", InfoPanelText::tr("not used: "));
-  for (auto match = kind.match(text); match.hasMatch();) {
-    const QString words = schema_text(match.captured().toStdString());
-    text.replace(match.capturedStart(), match.capturedLength(), words);
-    match = kind.match(text, match.capturedStart() + words.size());
-  }
-  return text;
+  return QString::fromStdString(files_text(convention, [](const std::string& text) {
+    const QString words = text == kNotUsed ? InfoPanelText::tr("not used: ") : schema_text(text);
+    return words.toStdString();
+  }));
 }
 
 // Names of an image grid that were given; empty if they were found.

@@ -10,9 +10,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <map>
 #include <optional>
+#include <regex>
 #include <set>
 #include <utility>
 
@@ -70,9 +70,10 @@ std::vector<fs::path> write_scribble_pictures(const fs::path& folder, const Scri
 }
 
 std::optional<ViewIndex> view_of_scribble_picture(const std::string& name) {
-  ViewIndex view;
-  const int read = std::sscanf(name.c_str(), "scribbles_%5d_%5d", &view.v, &view.u);
-  return read == 2 && name == stem_of(view) + ".png" ? std::optional(view) : std::nullopt;
+  static const std::regex pattern("scribbles_([0-9]{2,5})_([0-9]{2,5})\\.png");
+  std::smatch found;
+  if (!std::regex_match(name, found, pattern)) return std::nullopt;
+  return ViewIndex{std::stoi(found[1]), std::stoi(found[2])};
 }
 
 bool ViewPicture::is_painted(int y, int x) const {
