@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/capture/alignment.h"
 
+#include "engine/capture/symmetric_system.h"
 #include "engine/core/error.h"
 #include "engine/core/numbers.h"
 #include "engine/core/parallel.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
@@ -177,7 +178,7 @@ Eigen::Vector3d rotation_step(Model& model, const Eigen::Vector3d& vector) {
     const Eigen::VectorXd moved = model.weighted(model.residuals(rotation_of(other)));
     jacobian.col(k).head(residual.size()) = (moved - residual) / delta;
   }
-  return -(jacobian.transpose() * jacobian).ldlt().solve(jacobian.transpose() * all);
+  return -solve_symmetric(jacobian.transpose() * jacobian, jacobian.transpose() * all);
 }
 
 /// What each view is off, from what parallax does not explain.
@@ -201,7 +202,8 @@ std::vector<ViewCorrection> corrections_of(const Model& model, const Matrix3& ro
   }
   std::vector<ViewCorrection> corrections(views);
   for (std::size_t v = 0; v < views; ++v) {
-    Eigen::Map<Vector8>(corrections[v].parameters.data()) = normal[v].ldlt().solve(right[v]);
+    Eigen::Map<Vector8>(corrections[v].parameters.data()) =
+        solve_symmetric(normal[v], right[v]);
   }
   return corrections;
 }
@@ -220,7 +222,7 @@ void remove_trends(std::vector<ViewCorrection>& corrections, GridShape grid) {
       squares += step_of(v) * step_of(v).transpose();
       along += corrections[v].parameters[k] * step_of(v);
     }
-    const Vector2 trend = squares.ldlt().solve(along);
+    const Vector2 trend = solve_symmetric(squares, along);
     for (int v = 0; v < grid.count(); ++v) {
       corrections[v].parameters[k] -= trend.dot(step_of(v));
     }
@@ -524,13 +526,12 @@ Patch::Patch(ImageView<const float> picture, int y, int x) {
     squares += value * value;
   }
   contrast_ = std::sqrt(std::max(0.0, squares / kCount - (sum / kCount) * (sum / kCount)));
-  const Eigen::Matrix4d normal = jacobian.transpose() * jacobian;
-  const Eigen::LDLT<Eigen::Matrix4d> solver(normal);
-  if (contrast_ < kLeastContrast || solver.rcond() < 1e-14) {
+  const Eigen::MatrixXd update =
+      solve_symmetric(jacobian.transpose() * jacobian, jacobian.transpose(), 1e-14);
+  if (contrast_ < kLeastContrast || update.size() == 0) {
     contrast_ = 0;
     return;
   }
-  const Eigen::Matrix<double, 4, kCount> update = solver.solve(jacobian.transpose());
   for (int k = 0; k < 4; ++k) {
     for (int i = 0; i < kCount; ++i) update_[k][i] = static_cast<float>(update(k, i));
   }

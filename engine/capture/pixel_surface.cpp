@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/capture/pixel_surface.h"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -326,11 +326,10 @@ struct Lines {
   }
 
   [[nodiscard]] bool is_determined() const {
-    const Eigen::Vector2d eigenvalues =
-        Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(matrix, Eigen::EigenvaluesOnly)
-            .eigenvalues();
+    const double mean = matrix.trace() / 2;  // Of both eigenvalues.
+    const double apart = std::hypot((matrix(0, 0) - matrix(1, 1)) / 2, matrix(0, 1));
     return matrix.trace() > kLeastGradient * kLeastGradient * weight &&
-           eigenvalues[0] > kLeastBalance * eigenvalues[1];
+           mean - apart > kLeastBalance * (mean + apart);
   }
   [[nodiscard]] Eigen::Vector2d nearest() const { return matrix.inverse() * right; }
   /// Sum of squares of what lines miss their nearest point by.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/capture/solve_pose.h"
 
+#include "engine/capture/symmetric_system.h"
 #include "engine/core/error.h"
 #include "engine/core/numbers.h"
 #include "engine/core/text.h"
@@ -9,7 +10,7 @@
 #include "engine/io/base/json.h"
 
 #include <fmt/format.h>
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 #include <opencv2/calib3d.hpp>
 
@@ -79,10 +80,10 @@ PointLayout layout_of(std::span<const PointPair> pairs) {
     const Eigen::Vector3d from = place_of(pair) - center;
     scatter += from * from.transpose();
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter, Eigen::EigenvaluesOnly);
-  const Eigen::Vector3d extents = solver.eigenvalues().cwiseMax(0).cwiseSqrt();
-  if (extents[1] < kFlat * extents[2]) return PointLayout::Line;
-  return extents[0] < kFlat * extents[2] ? PointLayout::Plane : PointLayout::Space;
+  cv::Vec3d extents;  // Squared, from the longest on.
+  cv::eigen(cv::Mat(3, 3, CV_64F, scatter.data()), extents);
+  if (extents[1] < kFlat * kFlat * extents[0]) return PointLayout::Line;
+  return extents[2] < kFlat * kFlat * extents[0] ? PointLayout::Plane : PointLayout::Space;
 }
 
 // First poses of all pairs, by the homography of points in a plane or the direct linear transform
@@ -220,7 +221,7 @@ MinimizedPose minimize_reprojection(std::span<const PointPair> pairs, const Rigi
   for (int i = 0; i < kMostIterations && damping < 1e12; ++i) {
     Matrix6 damped = normal.matrix;
     damped.diagonal() *= 1 + damping;
-    const Vector6 step = -damped.ldlt().solve(normal.gradient);
+    const Vector6 step = -solve_symmetric(damped, normal.gradient);
     if (!step.allFinite()) break;
     const Pose next = moved(pose, step);
     const double cost = huber_cost(pairs, rigid(next), pinhole);

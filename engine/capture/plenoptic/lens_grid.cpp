@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/capture/plenoptic/lens_grid.h"
 
+#include "engine/capture/symmetric_system.h"
 #include "engine/core/error.h"
 #include "engine/core/numbers.h"
 #include "engine/core/parallel.h"
 
 #include <fmt/format.h>
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -337,7 +338,7 @@ void fit_terms(LensGrid& grid, const std::vector<Measured>& lenses) {
     normal += row * row.transpose();
     right += row * lens.at.transpose();
   }
-  const Eigen::MatrixX2d solved = normal.ldlt().solve(right);
+  const Eigen::MatrixX2d solved = solve_symmetric(normal, right);
   grid.terms.resize(terms);
   for (int k = 0; k < terms; ++k) grid.terms[k] = {solved(k, 0), solved(k, 1)};
 }

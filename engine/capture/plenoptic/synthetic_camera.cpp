@@ -8,7 +8,7 @@
 #include "engine/io/base/json.h"
 
 #include <fmt/format.h>
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
