@@ -10,6 +10,7 @@
 #include "engine/core/shear.h"
 #include "engine/core/text.h"
 #include "engine/io/base/exchange_files.h"
+#include "engine/io/base/files.h"
 #include "engine/io/base/hdf5_file.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/base/image_header.h"
@@ -460,14 +461,18 @@ std::uint64_t stated_hash(const fs::path& result) {
 
 }  // namespace
 
-ResultOwner owner_of_result(const fs::path& result, const LightField* front) {
+ResultOwner owner_of_result(const fs::path& result, const LightField* front,
+                            const std::string& front_input) {
   if (io::is_result_file(result)) {
     const bool is_of_front = front && stated_hash(result) == front->sample_hash();
     return {is_of_front ? "" : existing_source(stated_source(result), result), true};
   }
   const fs::path folder = fs::absolute(result).parent_path();
-  const bool has_light_field = io::find_reader(folder, {}).reader != nullptr;
-  return {has_light_field ? folder.string() : "", false};
+  std::error_code ignored;
+  const bool is_beside_front =
+      front && fs::exists(front_input, ignored) && io::is_inside_folder(front_input, folder);
+  const bool has_owner = !is_beside_front && io::find_reader(folder, {}).reader;
+  return {has_owner ? folder.string() : "", false};
 }
 
 namespace {

@@ -131,10 +131,11 @@ struct ResultOwner {
   bool is_stated = false;  ///< By the file; else it lies in the folder of the light field.
 };
 
-/// Finds the light field of a result or map. Where the file states samples that are those of
-/// `front`, which may be null, none is named. Throws IoError for a damaged file.
+/// Finds the light field of a result or map. None is named where it is `front` (may be null), which
+/// `front_input` opened: by the samples that the file states, or because it lies in the folder of
+/// the map, too. Throws IoError for a damaged file.
 [[nodiscard]] ResultOwner owner_of_result(const std::filesystem::path& result,
-                                          const LightField* front);
+                                          const LightField* front, const std::string& front_input);
 
 /// Forms of a disparity map, told by the suffix of its file.
 enum class MapForm {

@@ -106,7 +106,7 @@ void SegmentController::connectPanel() {
   connect(panel_, &SegmentPanel::parametersEdited, this, &SegmentController::noteInput);
   connect(panel_, &SegmentPanel::smoothingEdited, this, &SegmentController::smoothBoundaries);
   connect(panel_, &SegmentPanel::keepsAllViewsEdited, this, [this] {
-    if (is_live_) begin();
+    begin();
     followLabeler();
   });
 }
@@ -222,7 +222,7 @@ void SegmentController::update(Parts parts) {
   if (parts.has(Part::Scenes)) endAllViewsOfClosed();
   if (parts.has(Part::Scene)) return;  // the document tells of it
   if (parts.has(Part::View)) {
-    if (is_live_) begin();
+    begin();
     publish();
   } else if (parts.has(Part::TrueLabels)) {
     score();
@@ -249,7 +249,7 @@ void SegmentController::noteInput() {
     const LabelingPtr all = live_.labeling(session_.view());
     const bool is_back = all && all->labels.grid().count() > 1 && isSegmentationUpToDate();
     if (is_back) keep(all, *live_.input());
-    if (is_live_ || is_wanted_) begin();
+    begin();
   }
   publish();
   goOnWithAllViews();
@@ -262,22 +262,23 @@ void SegmentController::relabel(int from, int to) {
   if (live_.labeling(view) && live_.is_up_to_date(view)) {
     keep(live_.labeling(view), *live_.input());
   }
-  if (is_live_) begin();
+  begin();
   publish();
 }
 
+// Labels of all views are corrected by each stroke; what else is begun was asked for.
 void SegmentController::begin() {
   if (!live_.has_input()) return;
-  if (!live_.input()->disparity) source_.provide();
+  if ((is_live_ || is_wanted_) && !live_.input()->disparity) source_.provide();
   const ViewIndex view = session_.view();
   const bool was_running = live_.is_running();
   if (panel_->keepsAllViews() && live_.can_correct()) {
     live_.correct(view);
-  } else if (is_wanted_ || !live_.is_before_strokes(view)) {
+  } else if (is_wanted_ || (is_live_ && !live_.is_before_strokes(view))) {
     live_.label(view);
   }
   if (live_.is_running() && !was_running) clock_.start();
-  if (is_live_ && panel_->keepsAllViews()) live_.prepare(view);
+  if (panel_->keepsAllViews()) live_.prepare(view);
   endWish();
 }
 
@@ -529,7 +530,7 @@ void SegmentController::finishAll(const LabelingPtr& labeling,
   keep(labeling, *input);
   live_.take(labeling, input);
   panel_->setKeepsAllViews(true);
-  if (is_live_) begin();
+  begin();
   seconds_ = labeling->seconds;
   publish();
 }

@@ -306,8 +306,9 @@ void FileController::openAny(const QString& path) {
 void FileController::openResult(const QString& path) {
   bench_.jobs.start<ResultOwner>(
       Lane::Load, tr("Opening %1").arg(QFileInfo(path).fileName()),
-      [path = path.toStdString(), front = bench_.session.light_field()](const Progress&) {
-        return owner_of_result(path, front.get());
+      [path = path.toStdString(), front = bench_.session.light_field(),
+       input = bench_.session.input()](const Progress&) {
+        return owner_of_result(path, front.get(), input);
       },
       [this, path](const ResultOwner& owner) {
         const bool is_of_front =

@@ -150,7 +150,6 @@ void AllViewsTest::stroke_correctsAllViews_andIsUndoneAndRedone() {
   f.segmentAll();
   const LabelingPtr before = f.all();
   QVERIFY(f.panel().keepsAllViews());
-  f.trigger("segment.live");
   f.trigger("annotate.add_label");
   const int id = f.window.bench().labels.current();
 

@@ -115,7 +115,6 @@ void KeptWorkTest::labels_areKeptForACrash() {
   // Newer labels take its place.
   f.trigger("annotate.mode");
   f.drag({5, 5}, {5, 40});
-  f.segmentAll();
   QTRY_VERIFY_WITH_TIMEOUT(!kept().empty() && kept() != first && f.autosave().isIdle(), kPatience);
   QVERIFY(!std::filesystem::exists(first));
   QVERIFY(read_project(project).scenes.at(0).labels.file == kept());

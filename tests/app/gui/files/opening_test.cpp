@@ -5,6 +5,7 @@
 #include "app/gui/shell/frame.h"
 #include "app/session/load_scene.h"
 #include "engine/core/error.h"
+#include "engine/io/write.h"
 #include "tests/app/gui/held_lane.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
@@ -88,6 +89,7 @@ class OpeningTest : public QObject {
   void dialogForFiles_hidesNoForm();
   void dialogForFiles_opensAFolder();
   void mapBesideViews_offersItsLightField();
+  void mapAboveTheViewsInFront_isTheirs();
   void resultOfAnotherLightField_isAddedAtWishAndMarked();
   void resultOfAnotherLightField_opensThatWithTheResult();
   void droppedFile_isOpened();
@@ -374,6 +376,25 @@ void OpeningTest::mapBesideViews_offersItsLightField() {
   choose(f, f.path("edge/map.pfm"));  // it belongs to the light field in front now
   QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().session.estimates().size(), 1U, kScenePatience);
   QVERIFY(f.window.bench().session.estimates()[0].foreign_file.empty());
+}
+
+// Its folder has a light field, too: the one in front, whose views lie one folder deeper.
+void OpeningTest::mapAboveTheViewsInFront_isTheirs() {
+  WindowFixture f;
+  f.openSmall("slant");
+  QDir().mkpath(f.path("new"));
+  const auto& session = f.window.bench().session;
+  io::writer_named("grid")->write(f.path("new/lf").toStdString(), *session.scene(), Progress());
+  f.runAndWait();
+  exportShown(f, f.path("new/mine.pfm"));
+  f.window.bench().opener.open(f.path("new/lf"));
+  QTRY_COMPARE_WITH_TIMEOUT(session.input(), f.path("new/lf").toStdString(), kScenePatience);
+
+  choose(f, f.path("new/mine.pfm"));
+
+  QTRY_COMPARE_WITH_TIMEOUT(session.estimates().size(), 1U, kScenePatience);
+  QVERIFY(!f.window.findChild<QMessageBox*>("result_owner"));
+  QVERIFY(session.estimates()[0].foreign_file.empty());
 }
 
 void OpeningTest::resultOfAnotherLightField_isAddedAtWishAndMarked() {
