@@ -59,6 +59,7 @@ ValueController::ValueController(const Workbench& bench)
     show();
   });
   canvas->setPixelText([this](int y, int x) { return pixelText({y, x}); });
+  connect(&bench.overlay, &Overlay::drawn, this, &ValueController::show);
   connect(&bench.jobs, &Jobs::added, this, &ValueController::showStatus);
   connect(&bench.jobs, &Jobs::removed, this, &ValueController::showStatus);
   showStatus();

@@ -11,6 +11,7 @@
 #include "tests/app/gui/held_lane.h"
 #include "tests/window_test_main.h"
 #include "widgets/panels/segment_panel.h"
+#include "widgets/panels/value_bar.h"
 
 #include <QAbstractButton>
 #include <QDir>
@@ -170,6 +171,9 @@ void AllViewsTest::stroke_correctsAllViews_andIsUndoneAndRedone() {
              qPrintable(QString::number(same)));
   }
   QVERIFY(f.session().labels().labeling == corrected);
+  // The cursor, which has not moved since, is over the new labels.
+  const QString values = find<ValueBar>(f.window).text();
+  QVERIFY2(values.contains(QString("segment label %1").arg(id)), qPrintable(values));
 
   f.key(Qt::Key_Z, Qt::ControlModifier);
   QTRY_COMPARE(f.all(), before);
