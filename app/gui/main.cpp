@@ -99,8 +99,9 @@ int main(int argc, char** argv) {
   const QCommandLineOption version = parser.addVersionOption();
   parser.addPositionalArgument(
       "INPUT",
-      "an lf.h5, a scene folder, an image grid, a project (*.episcope), demo or demo:<scene>",
-      "[INPUT]");
+      "an lf.h5, a scene folder, an image grid, a project (*.episcope), demo or demo:<scene>; "
+      "or a result, which opens its light field",
+      "[INPUT...]");
   const QCommandLineOption theme = theme_option();
   const QCommandLineOption language = language_option();
   parser.addOptions({theme, language});
@@ -111,7 +112,6 @@ int main(int argc, char** argv) {
   if (parser.isSet(help)) parser.showHelp();
   if (parser.isSet(version)) return show_version();
   const QStringList inputs = parser.positionalArguments();
-  if (inputs.size() > 1) return fail("give one INPUT; a project (*.episcope) holds several");
   if (!episcope::apply_theme(parser.value(theme))) {
     return fail("--theme must be light, dark or system");
   }
@@ -125,6 +125,6 @@ int main(int argc, char** argv) {
   episcope::use_cache_for_scratch();
   episcope::MainWindow window;
   window.show();
-  window.start(inputs.isEmpty() ? QStringLiteral("demo") : inputs.front());
+  window.start(inputs.isEmpty() ? QStringList("demo") : inputs);
   return QApplication::exec();
 }

@@ -2,6 +2,7 @@
 #include "app/gui/main_window.h"
 
 #include "app/gui/features.h"
+#include "app/gui/files/file_controller.h"
 #include "app/gui/scene/document_controller.h"
 #include "app/gui/scene/overlay.h"
 #include "app/gui/scene/scene_opener.h"
@@ -350,8 +351,8 @@ const Workbench& MainWindow::bench() const {
   return core_->bench;
 }
 
-void MainWindow::start(const QString& input) {
-  core_->opener.open(input);
+void MainWindow::start(const QStringList& inputs) {
+  findChild<FileController*>()->open(inputs);
   core_->frame->start();
 }
 

@@ -4,6 +4,7 @@
 #include "app/gui/shell/workbench.h"
 
 #include <QMainWindow>
+#include <QStringList>
 
 #include <memory>
 
@@ -17,9 +18,9 @@ class MainWindow : public QMainWindow {
   explicit MainWindow(QWidget* parent = nullptr);
   ~MainWindow() override;
 
-  /// Opens a path or a built-in scene, then lets features offer what an earlier session left
+  /// Opens paths and built-in scenes, then lets features offer what an earlier session left
   /// behind.
-  void start(const QString& input);
+  void start(const QStringList& inputs);
 
   /// What features work with.
   [[nodiscard]] const Workbench& bench() const;

@@ -63,7 +63,7 @@ class Player {
   }
 
   QString open(const QString& input) {
-    fixture_.window.start(input);
+    fixture_.window.start({input});
     const bool is_open = QTest::qWaitFor(
         [this] { return fixture_.window.bench().session.scene() != nullptr; }, kPatience_ms);
     return is_open ? QString() : "it does not open";

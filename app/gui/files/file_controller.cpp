@@ -303,22 +303,25 @@ void FileController::openAny(const QString& path) {
   is_result(path) ? openResult(path) : bench_.opener.open(path);
 }
 
-void FileController::openResult(const QString& path) {
+void FileController::openResult(const QString& path, const QStringList& rest) {
   bench_.jobs.start<ResultOwner>(
       Lane::Load, tr("Opening %1").arg(QFileInfo(path).fileName()),
       [path = path.toStdString(), front = bench_.session.light_field(),
        input = bench_.session.input()](const Progress&) {
         return owner_of_result(path, front.get(), input);
       },
-      [this, path](const ResultOwner& owner) {
+      [this, path, rest](const ResultOwner& owner) {
         const bool is_of_front =
             owner.input.empty() || is_same_input(owner.input, bench_.session.input());
-        if (!is_of_front) {
+        if (!is_of_front && !bench_.session.scene()) {
+          openOwner(path, owner, rest);
+        } else if (!is_of_front) {
           askWhereItBelongs(path, owner);
         } else if (bench_.session.scene()) {
           bench_.results.open(path);
         } else {
-          bench_.opener.open(path);  // says what is wrong
+          bench_.opener.open(path, nullptr,
+                             [this, rest](const QString& failure) { openAll(rest, {failure}); });
         }
       });
 }
@@ -337,30 +340,33 @@ void FileController::askWhereItBelongs(const QString& path, const ResultOwner& o
   open->setObjectName("result_owner.open");
   box->setDefaultButton(open);
   connect(open, &QPushButton::clicked, this, [this, path, owner] { openOwner(path, owner); });
-  if (bench_.session.scene()) {
-    auto* add = box->addButton(
-        tr("Add to “%1”").arg(QString::fromStdString(bench_.session.light_field()->info().name)),
-        QMessageBox::DestructiveRole);
-    add->setObjectName("result_owner.add");
-    connect(add, &QPushButton::clicked, this, [this, path] {
-      if (bench_.session.scene()) bench_.results.openForeign(path);
-    });
-  }
+  auto* add = box->addButton(
+      tr("Add to “%1”").arg(QString::fromStdString(bench_.session.light_field()->info().name)),
+      QMessageBox::DestructiveRole);
+  add->setObjectName("result_owner.add");
+  connect(add, &QPushButton::clicked, this, [this, path] {
+    if (bench_.session.scene()) bench_.results.openForeign(path);
+  });
   box->open();
 }
 
 // A map beside views may be their truth, which is read with them.
-void FileController::openOwner(const QString& path, const ResultOwner& owner) {
+void FileController::openOwner(const QString& path, const ResultOwner& owner,
+                               const QStringList& rest) {
   const auto scenes = bench_.session.scenes();
   const auto known = std::ranges::find_if(
       scenes, [&](const OpenScene* each) { return is_same_input(each->input, owner.input); });
   const std::string input = known == scenes.end() ? owner.input : (*known)->input;
-  bench_.opener.open(QString::fromStdString(input), [this, path, is_stated = owner.is_stated] {
-    if (is_stated) return bench_.results.open(path);
-    bench_.messages.offer(tr("%1 can be added to the results.").arg(QFileInfo(path).fileName()),
-                          tr("Add"), [this, path] {
-                            if (bench_.session.scene()) bench_.results.open(path);
-                          });
+  bench_.opener.open(QString::fromStdString(input), [this, path, rest, owner] {
+    if (owner.is_stated) {
+      bench_.results.open(path);
+    } else {
+      bench_.messages.offer(tr("%1 can be added to the results.").arg(QFileInfo(path).fileName()),
+                            tr("Add"), [this, path] {
+                              if (bench_.session.scene()) bench_.results.open(path);
+                            });
+    }
+    openAll(rest, {});
   });
 }
 
@@ -377,6 +383,8 @@ void FileController::openAll(QStringList paths, const QStringList& failures) {
   if (bench_.session.scene() && is_result(path)) {
     openResult(path);
     openAll(paths, failures);
+  } else if (failures.isEmpty() && is_result(path)) {
+    openResult(path, paths);
   } else {
     const auto go_on = [this, paths, failures](const QString& failure) {
       openAll(paths, failure.isEmpty() ? failures : QStringList(failures) << failure);
@@ -423,7 +431,7 @@ bool FileController::eventFilter(QObject* watched, QEvent* event) {
   for (const QUrl& url : urls) {
     if (url.isLocalFile()) paths << url.toLocalFile();
   }
-  openAll(paths, {});
+  open(paths);
   return true;
 }
 

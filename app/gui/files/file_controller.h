@@ -21,6 +21,10 @@ class FileController : public QObject {
  public:
   explicit FileController(const Workbench& bench);
 
+  /// Opens light fields and projects one after the other, then results, each with its light field
+  /// unless that is open. Reports what failed once all paths were tried.
+  void open(const QStringList& paths) { openAll(paths, {}); }
+
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
 
@@ -33,11 +37,11 @@ class FileController : public QObject {
   void askForResult();
   void askForBuiltin();
   void openAny(const QString& path);
-  /// Adds a result to the light field in front, unless it belongs to another one: then asks.
-  void openResult(const QString& path);
+  /// Adds a result to the light field in front. If it belongs to another one, asks, and opens that
+  /// without a question while nothing is open; then opens the `rest`.
+  void openResult(const QString& path, const QStringList& rest = {});
   void askWhereItBelongs(const QString& path, const ResultOwner& owner);
-  void openOwner(const QString& path, const ResultOwner& owner);
-  /// Reports earlier failures once all paths were tried.
+  void openOwner(const QString& path, const ResultOwner& owner, const QStringList& rest = {});
   void openAll(QStringList paths, const QStringList& failures);
   void remember(const QString& input);
   void fillRecentMenu();

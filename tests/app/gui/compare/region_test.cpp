@@ -207,7 +207,7 @@ void RegionTest::part_comesBackWithTheProject() {
   write_project(path, project);
 
   WindowFixture g;
-  g.window.start(QString::fromStdString(path));
+  g.window.start({QString::fromStdString(path)});
   Session& session = g.window.bench().session;
   QTRY_VERIFY_WITH_TIMEOUT(session.scene(), kScenePatience);
   const auto summary = [&g] { return find<RegionBar>(g.window).summary(); };

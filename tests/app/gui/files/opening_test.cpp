@@ -90,6 +90,7 @@ class OpeningTest : public QObject {
   void dialogForFiles_opensAFolder();
   void mapBesideViews_offersItsLightField();
   void mapAboveTheViewsInFront_isTheirs();
+  void resultsAlone_openWithTheirLightField();
   void resultOfAnotherLightField_isAddedAtWishAndMarked();
   void resultOfAnotherLightField_opensThatWithTheResult();
   void droppedFile_isOpened();
@@ -395,6 +396,22 @@ void OpeningTest::mapAboveTheViewsInFront_isTheirs() {
   QTRY_COMPARE_WITH_TIMEOUT(session.estimates().size(), 1U, kScenePatience);
   QVERIFY(!f.window.findChild<QMessageBox*>("result_owner"));
   QVERIFY(session.estimates()[0].foreign_file.empty());
+}
+
+// As a file manager starts the program.
+void OpeningTest::resultsAlone_openWithTheirLightField() {
+  WindowFixture f;
+  f.openSmall("slant");
+  f.runAndWait();
+  exportShown(f, f.path("first.h5"));
+  exportShown(f, f.path("second.h5"));
+
+  WindowFixture other;
+  other.window.start({f.path("first.h5"), f.path("second.h5")});
+
+  QTRY_COMPARE_WITH_TIMEOUT(other.window.bench().session.estimates().size(), 2U, kScenePatience);
+  QCOMPARE(other.window.bench().session.light_field()->info().name, std::string("slant"));
+  QVERIFY(!other.window.findChild<QMessageBox*>("result_owner"));
 }
 
 void OpeningTest::resultOfAnotherLightField_isAddedAtWishAndMarked() {

@@ -192,7 +192,7 @@ void SessionRecoveryTest::offer_isKeptByItsCross_andTheDemoWaitsForIt() {
   const WindowFixture files;
   leave_session(files, state.path());
   Recovering f(state.path());
-  f.window.start("demo?size=64&grid=3x3");
+  f.window.start({"demo?size=64&grid=3x3"});
   QTRY_VERIFY_WITH_TIMEOUT(f.session().scene() && f.bar()->isVisible(), kScenePatience);
   QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().jobs.count(), 0, kScenePatience);
   QVERIFY(f.session().estimates().empty());

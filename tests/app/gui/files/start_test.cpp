@@ -21,7 +21,7 @@ class Starting : public WindowFixture {
  public:
   QWidget* strip() { return window.findChild<QWidget*>("startStrip"); }
   void start() {
-    window.start(kDemo);
+    window.start({kDemo});
     awaitDemo();
   }
   void awaitDemo() {
@@ -45,7 +45,7 @@ class StartTest : public QObject {
 void StartTest::strip_standsAboveTheDemo_untilAnOwnLightFieldIsOpened() {
   Starting f;
   QVERIFY(!f.strip()->isVisible());
-  f.window.start(kDemo);
+  f.window.start({kDemo});
   QVERIFY(f.strip()->isVisible());  // the demo may take a while
   f.awaitDemo();
   QVERIFY(f.strip()->isVisible());
@@ -71,7 +71,7 @@ void StartTest::strip_opensFilesAndRecentInputs() {
   MainWindow again;  // with the same settings
   again.bench().opener.setCacheFolder({});
   again.show();
-  again.start(kDemo);
+  again.start({kDemo});
   QTRY_VERIFY_WITH_TIMEOUT(again.bench().session.scene(), kScenePatience);
   recent = again.findChild<QPushButton*>("start.recent");
   QVERIFY(recent->isVisible() && recent->isEnabled());

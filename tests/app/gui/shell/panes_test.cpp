@@ -205,7 +205,7 @@ void PanesTest::layout_isRememberedAndReset() {
   MainWindow other;
   other.resize(1280, 800);
   other.show();
-  other.start(f.path("edge/lf.h5"));
+  other.start({f.path("edge/lf.h5")});
   const ViewerArea& viewer_area = other.bench().viewer_area;
   QTRY_COMPARE(viewer_area.horizontalEpi()->height(), dragged);
   QVERIFY(viewer_area.verticalEpi()->window() != &other);
@@ -306,7 +306,7 @@ void PanesTest::stack_isRememberedAndReset() {
   MainWindow other;
   other.resize(1280, 800);
   other.show();
-  other.start(f.path("edge/lf.h5"));
+  other.start({f.path("edge/lf.h5")});
   auto* stack = other.findChild<QTabWidget*>("tabs.stack");
   QCOMPARE(stack->count(), 2);
   // The panels below may want some pixels more or less than before.
