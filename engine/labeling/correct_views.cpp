@@ -17,6 +17,36 @@
 
 namespace episcope {
 
+ProbabilityMap with_layers(VolumeView<const std::uint8_t> map, const std::vector<std::int32_t>& ids,
+                           const std::vector<std::int32_t>& more) {
+  ProbabilityMap wide(map.height, static_cast<int>(more.size()), map.width);
+  for (std::size_t l = 0; l < more.size(); ++l) {
+    const auto found = std::ranges::find(ids, more[l]);
+    for (int y = 0; y < map.height; ++y) {
+      std::uint8_t* const to = wide.view().row(y, static_cast<int>(l));
+      if (found == ids.end()) {
+        std::fill_n(to, map.width, std::uint8_t{0});
+      } else {
+        std::copy_n(map.row(y, static_cast<int>(found - ids.begin())), map.width, to);
+      }
+    }
+  }
+  return wide;
+}
+
+Image<std::int32_t> layers_after(ImageView<const std::int32_t> labels,
+                                 const Image<std::uint8_t>& news, const ProbabilityMap& after,
+                                 const std::vector<std::int32_t>& ids) {
+  Image<std::int32_t> found = most_probable_labels(after.view(), ids);
+  for (int y = 0; y < labels.height; ++y) {
+    for (int x = 0; x < labels.width; ++x) {
+      if (news.at(y, x) == 0 && labels.at(y, x) > 0) found.at(y, x) = labels.at(y, x);
+    }
+  }
+  find_layers(found, ids, found.view());
+  return found;
+}
+
 Image<std::uint8_t> news_of(VolumeView<const std::uint8_t> before,
                             VolumeView<const std::uint8_t> after,
                             ImageView<const std::uint8_t> painted) {

@@ -8,8 +8,15 @@
 
 #include <cstdint>
 #include <functional>
+#include <vector>
 
 namespace episcope {
+
+/// The same probabilities with a layer for each label of `more`, which includes `ids`; what has none
+/// gets 0.
+[[nodiscard]] ProbabilityMap with_layers(VolumeView<const std::uint8_t> map,
+                                         const std::vector<std::int32_t>& ids,
+                                         const std::vector<std::int32_t>& more);
 
 /// How much a probability must change, of 255, to count as news. A forest that is trained again
 /// changes all of them a little.
@@ -23,6 +30,12 @@ inline constexpr int kFewestNews = 12;
 [[nodiscard]] Image<std::uint8_t> news_of(VolumeView<const std::uint8_t> before,
                                           VolumeView<const std::uint8_t> after,
                                           ImageView<const std::uint8_t> painted);
+
+/// Layers of the labels of a view, with the most probable ones where there are news.
+[[nodiscard]] Image<std::int32_t> layers_after(ImageView<const std::int32_t> labels,
+                                               const Image<std::uint8_t>& news,
+                                               const ProbabilityMap& after,
+                                               const std::vector<std::int32_t>& ids);
 
 /// Which rays have new probabilities, `[v][u][y][x]`, 1 = new.
 using ChangedRays = ViewStack<std::uint8_t>;

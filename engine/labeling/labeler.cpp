@@ -16,7 +16,6 @@
 
 #include <algorithm>
 #include <deque>
-#include <set>
 #include <utility>
 
 namespace episcope {
@@ -78,36 +77,6 @@ bool covers(const ViewStack<float>& maps, ViewRectangle views) {
   return maps.contains(views.first) && maps.contains(views.grid.view_at(last, views.first));
 }
 
-void require_fit(const ViewScribbles& painted, const LightField& lf) {
-  if (lf.grid().contains(painted.view) && painted.labels.height() == lf.height() &&
-      painted.labels.width() == lf.width()) {
-    return;
-  }
-  throw InvalidInput(fmt::format(
-      "scribbles of {}×{} px on view {} do not fit the light field {} of {}×{} views of {}×{} px",
-      painted.labels.width(), painted.labels.height(), view_text(painted.view), lf.info().name,
-      lf.grid().v, lf.grid().u, lf.width(), lf.height()));
-}
-
-// The same probabilities with layers for more labels, which have none. Precondition: `more`
-// includes `ids`.
-ProbabilityMap with_layers(VolumeView<const std::uint8_t> map, const std::vector<std::int32_t>& ids,
-                           const std::vector<std::int32_t>& more) {
-  ProbabilityMap wide(map.height, static_cast<int>(more.size()), map.width);
-  for (std::size_t l = 0; l < more.size(); ++l) {
-    const auto found = std::ranges::find(ids, more[l]);
-    for (int y = 0; y < map.height; ++y) {
-      std::uint8_t* const to = wide.view().row(y, static_cast<int>(l));
-      if (found == ids.end()) {
-        std::fill_n(to, map.width, std::uint8_t{0});
-      } else {
-        std::copy_n(map.row(y, static_cast<int>(found - ids.begin())), map.width, to);
-      }
-    }
-  }
-  return wide;
-}
-
 /// What was learned from strokes; borrows it.
 struct Learned {
   const Scribbles& scribbles;
@@ -117,26 +86,6 @@ struct Learned {
 };
 
 }  // namespace
-
-std::vector<std::int32_t> painted_labels(const Scribbles& scribbles, const LightField& lf) {
-  std::set<std::int32_t> found;
-  for (const ViewScribbles& painted : scribbles.views) {
-    require_fit(painted, lf);
-    std::int32_t last = 0;
-    for (const std::int32_t label : painted.labels) {
-      if (label != last && label > 0) found.insert(label);
-      last = label;
-    }
-  }
-  if (found.empty()) {
-    throw InvalidInput("nothing is painted yet; paint strokes of at least two labels");
-  }
-  if (found.size() == 1) {
-    throw InvalidInput(
-        fmt::format("only label {} is painted; paint a second one as well", *found.begin()));
-  }
-  return {found.begin(), found.end()};
-}
 
 struct Labeler::State {
   LightFieldPtr light_field;
@@ -245,21 +194,6 @@ struct Labeler::State {
       all.push_back({view, std::move(news), std::move(after)});
     }
     return all;
-  }
-
-  /// Layers of the labels of a view, with the most probable ones where there are news.
-  static Image<std::int32_t> layers_after(ImageView<const std::int32_t> labels,
-                                          const Image<std::uint8_t>& news,
-                                          const ProbabilityMap& after,
-                                          const std::vector<std::int32_t>& ids) {
-    Image<std::int32_t> found = most_probable_labels(after.view(), ids);
-    for (int y = 0; y < labels.height; ++y) {
-      for (int x = 0; x < labels.width; ++x) {
-        if (news.at(y, x) == 0 && labels.at(y, x) > 0) found.at(y, x) = labels.at(y, x);
-      }
-    }
-    find_layers(found, ids, found.view());
-    return found;
   }
 
   [[nodiscard]] RayLabeling solve_news(const LabelerParameters& parameters,

@@ -38,11 +38,6 @@ struct LabelerParameters {
 
 [[nodiscard]] Schema<LabelerParameters> labeler_schema();
 
-/// Ids that are painted on any view, ascending. Throws InvalidInput if nothing or only one label is
-/// painted, or if scribbles do not fit the light field.
-[[nodiscard]] std::vector<std::int32_t> painted_labels(const Scribbles& scribbles,
-                                                       const LightField& light_field);
-
 /// Whether the set of features includes disparity.
 [[nodiscard]] bool uses_disparity(const LabelerParameters& parameters);
 

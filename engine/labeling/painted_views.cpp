@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/labeling/painted_views.h"
 
+#include "engine/core/error.h"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <functional>
 #include <set>
@@ -27,6 +31,17 @@ Image<std::uint8_t> difference(const Image<std::int32_t>* before,
   return is_any ? std::move(changed) : Image<std::uint8_t>();
 }
 
+void require_fit(const ViewScribbles& painted, const LightField& lf) {
+  if (lf.grid().contains(painted.view) && painted.labels.height() == lf.height() &&
+      painted.labels.width() == lf.width()) {
+    return;
+  }
+  throw InvalidInput(fmt::format(
+      "scribbles of {}×{} px on view {} do not fit the light field {} of {}×{} views of {}×{} px",
+      painted.labels.width(), painted.labels.height(), view_text(painted.view), lf.info().name,
+      lf.grid().v, lf.grid().u, lf.width(), lf.height()));
+}
+
 struct Painted {
   const ViewScribbles* view;
   std::ptrdiff_t pixels = 0;
@@ -45,6 +60,26 @@ Painted painted_in(const ViewScribbles& view) {
 }
 
 }  // namespace
+
+std::vector<std::int32_t> painted_labels(const Scribbles& scribbles, const LightField& lf) {
+  std::set<std::int32_t> found;
+  for (const ViewScribbles& painted : scribbles.views) {
+    require_fit(painted, lf);
+    std::int32_t last = 0;
+    for (const std::int32_t label : painted.labels) {
+      if (label != last && label > 0) found.insert(label);
+      last = label;
+    }
+  }
+  if (found.empty()) {
+    throw InvalidInput("nothing is painted yet; paint strokes of at least two labels");
+  }
+  if (found.size() == 1) {
+    throw InvalidInput(
+        fmt::format("only label {} is painted; paint a second one as well", *found.begin()));
+  }
+  return {found.begin(), found.end()};
+}
 
 bool have_same_strokes(const std::vector<ViewScribbles>& a, const std::vector<ViewScribbles>& b) {
   return std::ranges::equal(a, b, [](const ViewScribbles& left, const ViewScribbles& right) {

@@ -3,12 +3,18 @@
 
 #include "engine/core/image.h"
 #include "engine/core/indices.h"
+#include "engine/core/light_field.h"
 #include "engine/core/scene.h"
 
 #include <cstdint>
 #include <vector>
 
 namespace episcope {
+
+/// Ids that are painted on any view, ascending. Throws InvalidInput if nothing or only one label is
+/// painted, or if scribbles do not fit the light field.
+[[nodiscard]] std::vector<std::int32_t> painted_labels(const Scribbles& scribbles,
+                                                       const LightField& light_field);
 
 /// Which painted views a labeler reads. A fill of all views says the same in each of them, so that
 /// a few suffice; rays carry to the others what these say.

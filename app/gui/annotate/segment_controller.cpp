@@ -15,10 +15,6 @@
 namespace episcope {
 namespace {
 
-QString percent(double share) {
-  return QString::number(100 * share, 'f', 1) + " %";
-}
-
 // Labels that a project kept have no probabilities.
 bool has_map_in(const Labeling& labeling, render::Quantity quantity, ViewIndex view) {
   const bool is_of_probabilities =
@@ -52,11 +48,12 @@ SegmentController::SegmentController(const Workbench& bench, SegmentPanel* panel
       grid_(bench.window.findChild<ViewGrid*>()),
       source_(bench.session, bench.jobs, this),
       edges_(bench.session, this),
-      score_job_(this),
+      scores_(bench.session, this),
       live_(queued_post(this), [this] { followLabeler(); }) {
   addCommands();
   connectDocument();
   connectPanel();
+  connect(&scores_, &LabelScores::changed, this, &SegmentController::showState);
   bench.overlay.setProvider(render::Subject::Segmentation, this);
   bench.cancels.add(CancelRank::LiveSegmentation, [this] { return cancel(); });
   connect(&jobs_, &Jobs::removed, this, [this] {
@@ -421,7 +418,7 @@ void SegmentController::showProgress() {
 void SegmentController::showState() {
   showProgress();
   panel_->setSmoothing(smoothing());
-  QStringList notes{missing().isEmpty() ? scores_ : missing()};
+  QStringList notes{missing().isEmpty() ? scores_.text() : missing()};
   if (live_.is_up_to_date(session_.view()) && !isSegmentationUpToDate()) {
     notes << tr("Other views: before the last stroke.");
   }
@@ -433,41 +430,9 @@ void SegmentController::showState() {
 void SegmentController::score() {
   const AnnotationDocument* document = std::as_const(document_).document();
   // While another light field is opened, the labels of the last one are still there.
-  const Scored now{session_.scene() ? live_.labeling(session_.view()) : nullptr,
-                   session_.true_labels(), session_.view(), finish(),
-                   document ? document->labels().labels() : std::vector<LabelInfo>()};
-  if (now == scored_) return;
-  scored_ = now;
-  scores_.clear();
-  score_job_.drop();
-  if (!now.labeling) return;
-  score_job_.start<LabelingScores>(
-      [now, scene = session_.scene(), infos = session_.true_label_infos(),
-       disparity = live_.input()->disparity](const Progress& progress) {
-        static const ViewStack<std::int32_t> kNone;
-        return matched(
-            judge_labeling(finished_labels(*now.labeling, now.finish, progress.part(0, 0.3)),
-                           now.view, now.truth ? *now.truth : kNone, *scene->truth, disparity.get(),
-                           progress.part(0.3, 1)),
-            now.labels, infos);
-      },
-      [this](const LabelingScores& scores) { showScores(scores); });
-}
-
-void SegmentController::showScores(const LabelingScores& scores) {
-  QStringList parts;
-  const auto of_view = scores.view.all.share();
-  const auto of_all = scores.all_views.all.share();
-  const auto overlap = scores.view.all.mean_overlap();
-  const auto near = scores.view.boundaries.share();
-  if (of_view) parts << tr("correct: %1 of this view").arg(percent(*of_view));
-  if (near) parts << tr("%1 near boundaries").arg(percent(*near));
-  if (overlap) parts << tr("mean IoU %1").arg(percent(*overlap));
-  if (of_all) parts << tr("%1 of all").arg(percent(*of_all));
-  if (of_view && scores.is_by_overlap) parts << tr("labels matched by overlap");
-  if (scores.consistency) parts << tr("consistent: %1").arg(percent(*scores.consistency));
-  scores_ = parts.join(", ");
-  showState();
+  scores_.judge({session_.scene() ? live_.labeling(session_.view()) : nullptr, finish(),
+                 document ? document->labels().labels() : std::vector<LabelInfo>()},
+                live_.has_input() ? live_.input()->disparity : nullptr);
 }
 
 void SegmentController::segmentAllViews() {

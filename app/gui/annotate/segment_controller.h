@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "app/gui/annotate/label_scores.h"
 #include "app/gui/annotate/labeling_source.h"
 #include "app/gui/scene/document_controller.h"
 #include "app/gui/scene/overlay.h"
@@ -77,14 +78,6 @@ class SegmentController : public QObject, public MapProvider {
   void addExportCommands();
   void connectDocument();
   void connectPanel();
-  struct Scored {
-    LabelingPtr labeling;
-    TrueLabelsPtr truth;
-    ViewIndex view;
-    LabelFinish finish;
-    std::vector<LabelInfo> labels;
-    friend bool operator==(const Scored&, const Scored&) = default;
-  };
   struct State {
     QString text;
     ChipMood mood;
@@ -113,7 +106,6 @@ class SegmentController : public QObject, public MapProvider {
   void score();
   void showLabels();
   [[nodiscard]] bool showsLabels() const;
-  void showScores(const LabelingScores& scores);
   [[nodiscard]] LabelerParameters parameters() const;
   [[nodiscard]] LabelFinish finish() const;
   [[nodiscard]] double smoothing() const;
@@ -132,14 +124,12 @@ class SegmentController : public QObject, public MapProvider {
   bool is_wanted_ = false;  // an update was asked for that is not there yet
   QElapsedTimer clock_;     // since the labels that are on their way were asked for
   double seconds_ = 0;      // that the newest ones took
-  QString scores_;
-  Scored scored_;
   LabelingPtr shown_labeling_;
   std::shared_ptr<const LabelingInput> tried_all_;
   std::map<std::uint64_t, quint64> all_views_;  // the newest job of each scene
   std::set<std::uint64_t> awaiting_;            // scenes whose views are segmented after that
   std::uint64_t restored_ = 0;                  // scene whose kept labels were brought back
-  LatestJob score_job_;
+  LabelScores scores_;
   LiveLabeler live_;
 };
 
