@@ -4167,6 +4167,33 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     </message>
 </context>
 <context>
+    <name>episcope::LabelScores</name>
+    <message>
+        <source>correct: %1 of this view</source>
+        <translation>richtig: %1 dieser Ansicht</translation>
+    </message>
+    <message>
+        <source>%1 near boundaries</source>
+        <translation>%1 nahe Grenzen</translation>
+    </message>
+    <message>
+        <source>mean IoU %1</source>
+        <translation>mittlere IoU %1</translation>
+    </message>
+    <message>
+        <source>%1 of all</source>
+        <translation>%1 von allen</translation>
+    </message>
+    <message>
+        <source>labels matched by overlap</source>
+        <translation>Labels nach Überdeckung zugeordnet</translation>
+    </message>
+    <message>
+        <source>consistent: %1</source>
+        <translation>konsistent: %1</translation>
+    </message>
+</context>
+<context>
     <name>episcope::LabelingSource</name>
     <message>
         <source>automatic</source>
@@ -8383,36 +8410,12 @@ s</translation>
         <translation>Stand der Segmentierung dieser Ansicht, und wie lange sie dauerte.</translation>
     </message>
     <message>
-        <source>correct: %1 of this view</source>
-        <translation>richtig: %1 dieser Ansicht</translation>
-    </message>
-    <message>
-        <source>%1 near boundaries</source>
-        <translation>%1 nahe Grenzen</translation>
-    </message>
-    <message>
-        <source>mean IoU %1</source>
-        <translation>mittlere IoU %1</translation>
-    </message>
-    <message>
-        <source>%1 of all</source>
-        <translation>%1 von allen</translation>
-    </message>
-    <message>
-        <source>consistent: %1</source>
-        <translation>konsistent: %1</translation>
-    </message>
-    <message>
         <source>Reading labels</source>
         <translation>Labels werden gelesen</translation>
     </message>
     <message>
         <source>labeling …</source>
         <translation>wird gelabelt …</translation>
-    </message>
-    <message>
-        <source>labels matched by overlap</source>
-        <translation>Labels nach Überdeckung zugeordnet</translation>
     </message>
     <message>
         <source>All views are segmented once the disparity is estimated.</source>
