@@ -275,7 +275,8 @@ void SegmentController::begin() {
     live_.label(view);
   }
   if (live_.is_running() && !was_running) clock_.start();
-  if (panel_->keepsAllViews()) live_.prepare(view);
+  // Nobody paints while the panel is hidden: browsing costs nothing then.
+  if (panel_->keepsAllViews() && (is_live_ || panel_->isVisible())) live_.prepare(view);
   endWish();
 }
 

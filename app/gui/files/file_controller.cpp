@@ -313,16 +313,12 @@ void FileController::openResult(const QString& path, const QStringList& rest) {
       [this, path, rest](const ResultOwner& owner) {
         const bool is_of_front =
             owner.input.empty() || is_same_input(owner.input, bench_.session.input());
-        if (!is_of_front && !bench_.session.scene()) {
-          openOwner(path, owner, rest);
-        } else if (!is_of_front) {
-          askWhereItBelongs(path, owner);
-        } else if (bench_.session.scene()) {
-          bench_.results.open(path);
-        } else {
-          bench_.opener.open(path, nullptr,
-                             [this, rest](const QString& failure) { openAll(rest, {failure}); });
+        if (!bench_.session.scene()) {
+          // Of an unknown owner the opener says what is wrong.
+          return is_of_front ? openFirst(path, rest, {}) : openOwner(path, owner, rest);
         }
+        is_of_front ? bench_.results.open(path) : askWhereItBelongs(path, owner);
+        openAll(rest, {});
       });
 }
 
@@ -386,12 +382,17 @@ void FileController::openAll(QStringList paths, const QStringList& failures) {
   } else if (failures.isEmpty() && is_result(path)) {
     openResult(path, paths);
   } else {
-    const auto go_on = [this, paths, failures](const QString& failure) {
-      openAll(paths, failure.isEmpty() ? failures : QStringList(failures) << failure);
-    };
-    bench_.opener.open(
-        path, [go_on] { go_on({}); }, go_on);
+    openFirst(path, paths, failures);
   }
+}
+
+void FileController::openFirst(const QString& path, const QStringList& rest,
+                               const QStringList& failures) {
+  const auto go_on = [this, rest, failures](const QString& failure) {
+    openAll(rest, failure.isEmpty() ? failures : QStringList(failures) << failure);
+  };
+  bench_.opener.open(
+      path, [go_on] { go_on({}); }, go_on);
 }
 
 void FileController::fillRecentMenu() {

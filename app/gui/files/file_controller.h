@@ -43,6 +43,7 @@ class FileController : public QObject {
   void askWhereItBelongs(const QString& path, const ResultOwner& owner);
   void openOwner(const QString& path, const ResultOwner& owner, const QStringList& rest = {});
   void openAll(QStringList paths, const QStringList& failures);
+  void openFirst(const QString& path, const QStringList& rest, const QStringList& failures);
   void remember(const QString& input);
   void fillRecentMenu();
   void showInvitation();
