@@ -17,6 +17,12 @@ int add_chain(NetStream& stream, const NetWeights& weights, int input,
   return input;
 }
 
+// A tensor plus two layers of it.
+int add_residual(NetStream& stream, const NetWeights& weights, int input, const std::string& name) {
+  const int first = stream.add_convolution(weights.layer(name + ".0"), input);
+  return stream.add_convolution(weights.layer(name + ".1"), first, {-1, input});
+}
+
 // A layer of 1×1, then its output twice as large plus another, then a layer of it.
 int add_ascent(NetStream& stream, const NetWeights& weights, int input, int plus,
                const std::array<std::string, 2>& names) {
@@ -72,8 +78,10 @@ int add_net_volume(NetStream& stream, const NetWeights& weights, int evidence, i
   const int input = stream.add_convolution(weights.layer(v + "input"), evidence, {map, -1});
   const int x0 = stream.add_convolution(weights.layer(v + "e0"), input, {-1, input});
   const int x1 = add_chain(stream, weights, x0, {v + "d1", v + "e1"});
-  const int x2 = add_chain(stream, weights, x1, {v + "d2", v + "e2.0", v + "e2.1"});
-  const int x3 = add_chain(stream, weights, x2, {v + "d3", v + "e3.0", v + "e3.1"});
+  const int e2 = add_chain(stream, weights, x1, {v + "d2", v + "e2.0", v + "e2.1"});
+  const int x2 = add_residual(stream, weights, e2, v + "r2");
+  const int e3 = add_chain(stream, weights, x2, {v + "d3", v + "e3.0", v + "e3.1"});
+  const int x3 = add_residual(stream, weights, e3, v + "r3");
   const int y2 = add_ascent(stream, weights, x3, x2, {v + "u2", v + "f2"});
   const int y1 = add_ascent(stream, weights, y2, x1, {v + "u1", v + "f1"});
   const int y0 = add_ascent(stream, weights, y1, x0, {v + "u0", v + "f0"});
@@ -82,9 +90,13 @@ int add_net_volume(NetStream& stream, const NetWeights& weights, int evidence, i
 
 int add_net_selection(NetStream& stream, const NetWeights& weights, int input) {
   const std::string s = kNetSelection;
-  const int x0 = add_chain(stream, weights, input, {s + "i.0", s + "i.1"});
-  const int x1 = add_chain(stream, weights, x0, {s + "d1.0", s + "d1.1"});
-  const int x2 = add_chain(stream, weights, x1, {s + "d2.0", s + "d2.1", s + "d2.2", s + "d2.3"});
+  const int i = add_chain(stream, weights, input, {s + "i.0", s + "i.1"});
+  const int x0 = add_residual(stream, weights, i, s + "r0");
+  const int d1 = add_chain(stream, weights, x0, {s + "d1.0", s + "d1.1"});
+  const int x1 = add_residual(stream, weights, d1, s + "r1");
+  const int d2 = add_chain(stream, weights, x1, {s + "d2.0", s + "d2.1", s + "d2.2", s + "d2.3"});
+  const int d3 = add_chain(stream, weights, d2, {s + "d3.0", s + "d3.1", s + "d3.2", s + "u2"});
+  const int x2 = stream.add_enlarged(d3, d2);
   const int y1 = add_ascent(stream, weights, x2, x1, {s + "u1", s + "f1"});
   const int y0 = add_ascent(stream, weights, y1, x0, {s + "u0", s + "f0"});
   return stream.add_convolution(weights.layer(s + "head"), y0);

@@ -23,9 +23,13 @@ constexpr NetLayerForm kForms[] = {
     {"volume.d2", 3, 32, 48, 3, 2, 1, true, true},
     {"volume.e2.0", 3, 48, 48, 3, 1, 1, true, true},
     {"volume.e2.1", 3, 48, 48, 3, 1, 1, true, true},
+    {"volume.r2.0", 3, 48, 48, 3, 1, 1, true, true},
+    {"volume.r2.1", 3, 48, 48, 3, 1, 1, true, false},
     {"volume.d3", 3, 48, 64, 3, 2, 1, true, true},
     {"volume.e3.0", 3, 64, 64, 3, 1, 1, true, true},
     {"volume.e3.1", 3, 64, 64, 3, 1, 1, true, true},
+    {"volume.r3.0", 3, 64, 64, 3, 1, 1, true, true},
+    {"volume.r3.1", 3, 64, 64, 3, 1, 1, true, false},
     {"volume.u2", 3, 64, 48, 1, 1, 1, true, true},
     {"volume.f2", 3, 48, 48, 3, 1, 1, true, true},
     {"volume.u1", 3, 48, 32, 1, 1, 1, true, true},
@@ -37,12 +41,20 @@ constexpr NetLayerForm kForms[] = {
     {"volume.head", 3, 16, 1, 3, 1, 1, true, false},
     {"selection.i.0", 2, 85, 64, 3, 1, 1, true, true},
     {"selection.i.1", 2, 64, 64, 3, 1, 1, true, true},
+    {"selection.r0.0", 2, 64, 64, 3, 1, 1, true, true},
+    {"selection.r0.1", 2, 64, 64, 3, 1, 1, true, false},
     {"selection.d1.0", 2, 64, 96, 3, 2, 1, true, true},
     {"selection.d1.1", 2, 96, 96, 3, 1, 1, true, true},
+    {"selection.r1.0", 2, 96, 96, 3, 1, 1, true, true},
+    {"selection.r1.1", 2, 96, 96, 3, 1, 1, true, false},
     {"selection.d2.0", 2, 96, 128, 3, 2, 1, true, true},
     {"selection.d2.1", 2, 128, 128, 3, 1, 1, true, true},
     {"selection.d2.2", 2, 128, 128, 3, 1, 2, true, true},
     {"selection.d2.3", 2, 128, 128, 3, 1, 4, true, true},
+    {"selection.d3.0", 2, 128, 128, 3, 2, 1, true, true},
+    {"selection.d3.1", 2, 128, 128, 3, 1, 1, true, true},
+    {"selection.d3.2", 2, 128, 128, 3, 1, 2, true, true},
+    {"selection.u2", 2, 128, 128, 1, 1, 1, true, false},
     {"selection.u1", 2, 128, 96, 1, 1, 1, true, true},
     {"selection.f1", 2, 96, 96, 3, 1, 1, true, true},
     {"selection.u0", 2, 96, 64, 1, 1, 1, true, true},
@@ -76,6 +88,10 @@ constexpr NetLayerForm kForms[] = {
     {"refinement.1.head", 2, 48, 2, 3, 1, 1, true, false},
 };
 
+bool has_array(const NamedArrays& arrays, const std::string& name) {
+  return std::ranges::find(arrays.arrays, name, &NamedArray::name) != arrays.arrays.end();
+}
+
 const NamedArray& array_of(const NamedArrays& arrays, const std::string& name) {
   const auto found = std::ranges::find(arrays.arrays, name, &NamedArray::name);
   if (found == arrays.arrays.end()) {
@@ -102,12 +118,23 @@ const std::vector<float>& values_of(const NamedArrays& arrays, const std::string
   return array.values;
 }
 
+// Weights, which the file may hold divided by a scale for each output.
+std::vector<float> weights_of(const NamedArrays& arrays, const std::string& name,
+                              const std::vector<std::size_t>& shape) {
+  std::vector<float> weights = values_of(arrays, name + ".weight", shape);
+  if (!has_array(arrays, name + ".scale")) return weights;
+  const std::vector<float>& scales = values_of(arrays, name + ".scale", {shape[0]});
+  const std::size_t each = weights.size() / shape[0];
+  for (std::size_t i = 0; i < weights.size(); ++i) weights[i] *= scales[i / each];
+  return weights;
+}
+
 NetLayer read_layer(const NamedArrays& arrays, const NetLayerForm& form) {
   std::vector<std::size_t> shape{static_cast<std::size_t>(form.outputs),
                                  static_cast<std::size_t>(form.inputs)};
   shape.insert(shape.end(), form.dimensions, form.kernel);
   const std::string name = form.name;
-  const std::vector<float>& weights = values_of(arrays, name + ".weight", shape);
+  const std::vector<float> weights = weights_of(arrays, name, shape);
   if (!form.has_bias) return make_net_layer(form, weights, {});
   return make_net_layer(form, weights, values_of(arrays, name + ".bias", {shape[0]}));
 }
@@ -116,7 +143,8 @@ void require_known(const NamedArrays& arrays) {
   for (const NamedArray& array : arrays.arrays) {
     const auto is_its_layer = [&](const NetLayerForm& form) {
       const std::string name = form.name;
-      return array.name == name + ".weight" || (form.has_bias && array.name == name + ".bias");
+      return array.name == name + ".weight" || array.name == name + ".scale" ||
+             (form.has_bias && array.name == name + ".bias");
     };
     if (std::ranges::none_of(kForms, is_its_layer)) {
       throw InvalidInput("net has no layer for the weights " + array.name +

@@ -3,8 +3,9 @@
 
     export.py CHECKPOINT net.npz COMMIT DATE [net_vectors.npz]
 
-The weights have BatchNorm folded into them and are half precision; the vectors are computed from
-these in float. `record` is JSON in UTF-8 bytes.
+The weights have BatchNorm folded into them. Those of large layers are `NAME.weight`, of 8 bits, times
+`NAME.scale` of their output; all other numbers are half precision. The vectors are computed from these
+in float. `record` is JSON in UTF-8 bytes.
 """
 import copy
 import hashlib
@@ -21,7 +22,8 @@ import kernels
 import network
 import views
 
-VERSION = 4
+VERSION = 5
+LARGE = 10000    # weights of a layer that are kept in 8 bits, at least
 CONV, NORM = (nn.Conv2d, nn.Conv3d), (nn.BatchNorm2d, nn.BatchNorm3d)
 
 
@@ -85,10 +87,28 @@ def architecture(net):
                 for n, (c, a) in layers(net).items()})
 
 
+def stored(name, weight):
+    """The arrays that hold a layer's weights (numpy, float; outputs first)."""
+    if weight.size < LARGE:
+        return {name + '.weight': weight.astype(np.float16)}
+    column = (-1, *[1] * (weight.ndim - 1))
+    scale = (np.abs(weight).reshape(len(weight), -1).max(1).clip(1e-6) / 127).astype(np.float16)
+    levels = np.rint(weight / scale.astype(np.float32).reshape(column)).clip(-127, 127)
+    return {name + '.weight': levels.astype(np.int8), name + '.scale': scale}
+
+
+def restored(arrays, name):
+    """What `stored` held, in float."""
+    weight = arrays[name + '.weight'].astype(np.float32)
+    if name + '.scale' not in arrays:
+        return weight
+    return weight * arrays[name + '.scale'].astype(np.float32).reshape(-1, *[1] * (weight.ndim - 1))
+
+
 def write(net, path, training):
     arrays = {}
     for name, (c, _) in layers(net).items():
-        arrays[name + '.weight'] = c.weight.detach()[:, :real_inputs(name, c)].half().contiguous().cpu().numpy()
+        arrays.update(stored(name, c.weight.detach()[:, :real_inputs(name, c)].float().cpu().numpy()))
         if c.bias is not None:
             arrays[name + '.bias'] = c.bias.detach().half().cpu().numpy()
     digest = hashlib.sha256()
@@ -97,7 +117,7 @@ def write(net, path, training):
         digest.update(arrays[name].tobytes())
     record = dict(name='net', version=VERSION, sha256=digest.hexdigest(),
                   hashed='names in UTF-8 and bytes of the arrays, sorted by name', architecture=architecture(net),
-                  training=training, weights=int(sum(a.size for a in arrays.values())))
+                  training=training, weights=int(sum(a.size for n, a in arrays.items() if not n.endswith('.scale'))))
     arrays['record'] = np.frombuffer(json.dumps(record, indent=1).encode(), np.uint8)
     np.savez(path, **arrays)
     return record
@@ -108,7 +128,7 @@ def read(path, device='cuda'):
     net, z = fold(network.Net()).to(device), np.load(path)
     with torch.no_grad():
         for name, (c, _) in layers(net).items():
-            w = torch.tensor(z[name + '.weight'].astype(np.float32))
+            w = torch.tensor(restored(z, name))
             c.weight.zero_()
             c.weight[:, :w.shape[1]] = w.to(device)
             if c.bias is not None:
@@ -119,7 +139,6 @@ def read(path, device='cuda'):
 def unfold(net, path):
     """Puts released weights into a network with BatchNorm, which only adds the bias (Trainer.calibrate goes on)."""
     z = np.load(path)
-    take = lambda name: torch.tensor(z[name].astype(np.float32))
     with torch.no_grad():
         for m in net.modules():
             if isinstance(m, NORM):
@@ -127,11 +146,11 @@ def unfold(net, path):
         for name in [n[:-7] for n in z.files if n.endswith('.weight')]:
             m = net.get_submodule(name)
             folded = isinstance(m, nn.Sequential)
-            c, w = m[0] if folded else m, take(name + '.weight')
+            c, w = m[0] if folded else m, torch.tensor(restored(z, name))
             c.weight.zero_()
             c.weight[:, :w.shape[1]] = w.to(c.weight.device)
             if name + '.bias' in z.files:
-                (m[1] if folded else c).bias.copy_(take(name + '.bias'))
+                (m[1] if folded else c).bias.copy_(torch.tensor(z[name + '.bias'].astype(np.float32)))
 
 
 def vectors(net, path):

@@ -24,6 +24,12 @@ def conv2(i, o, stride=1, dilation=1, k=3):
                          nn.BatchNorm2d(o), nn.LeakyReLU(SLOPE, True))
 
 
+def residual(first, last):
+    """Two layers whose output is added to their input: nothing, before they learn."""
+    nn.init.zeros_(last.weight), nn.init.zeros_(last.bias)
+    return nn.Sequential(first, last)
+
+
 def filled(n):
     """Channels rounded up to a multiple of 8: fast in training, cut off again by the export."""
     return (n + 7) // 8 * 8
@@ -74,7 +80,9 @@ class Volume(nn.Module):
         s.e0 = conv3(a, a)
         s.d1, s.e1 = conv3(a, b, 2), conv3(b, b)
         s.d2, s.e2 = conv3(b, c, 2), nn.Sequential(conv3(c, c), conv3(c, c))
+        s.r2 = residual(conv3(c, c), nn.Conv3d(c, c, 3, padding=1))
         s.d3, s.e3 = conv3(c, e, 2), nn.Sequential(conv3(e, e), conv3(e, e))
+        s.r3 = residual(conv3(e, e), nn.Conv3d(e, e, 3, padding=1))
         s.u2, s.f2 = conv3(e, c, k=1), conv3(c, c)
         s.u1, s.f1 = conv3(c, b, k=1), conv3(b, b)
         s.u0, s.f0 = conv3(b, a, k=1), conv3(a, a)
@@ -85,7 +93,9 @@ class Volume(nn.Module):
         x0 = x0 + s.e0(x0)
         x1 = s.e1(s.d1(x0))
         x2 = s.e2(s.d2(x1))
+        x2 = x2 + s.r2(x2)
         x3 = s.e3(s.d3(x2))
+        x3 = x3 + s.r3(x3)
         y2 = s.f2(up(s.u2(x3), x2) + x2)
         y1 = s.f1(up(s.u1(y2), x1) + x1)
         y0 = s.f0(up(s.u0(y1), x0) + x0)
@@ -144,8 +154,12 @@ class Selection(nn.Module):
         n = HYPOTHESES
         s.reduce = Reduce(g)
         s.i = nn.Sequential(conv2(filled(n * g + n + (n - 1) + 1 + 5), w), conv2(w, w))
+        s.r0 = residual(conv2(w, w), nn.Conv2d(w, w, 3, padding=1))
         s.d1 = nn.Sequential(conv2(w, w1, 2), conv2(w1, w1))
+        s.r1 = residual(conv2(w1, w1), nn.Conv2d(w1, w1, 3, padding=1))
         s.d2 = nn.Sequential(conv2(w1, w2, 2), conv2(w2, w2), conv2(w2, w2, dilation=2), conv2(w2, w2, dilation=4))
+        s.d3 = nn.Sequential(conv2(w2, w2, 2), conv2(w2, w2), conv2(w2, w2, dilation=2))
+        s.u2 = nn.Conv2d(w2, w2, 1)
         s.u1, s.f1 = conv2(w2, w1, k=1), conv2(w1, w1)
         s.u0, s.f0 = conv2(w1, w, k=1), conv2(w, w)
         s.head = nn.Conv2d(w, n, 3, padding=1)
@@ -160,8 +174,11 @@ class Selection(nn.Module):
         k = known.view(-1, 1, 1, 1).expand(-1, 1, *h.shape[2:])
         x = torch.cat((s.reduce(evidence), logp.clamp(-12, 0) / 4, squash(h[:, 1:] - h[:, :1]), k, image), 1)
         x0 = s.i(fill(x))
+        x0 = x0 + s.r0(x0)
         x1 = s.d1(x0)
+        x1 = x1 + s.r1(x1)
         x2 = s.d2(x1)
+        x2 = x2 + up(s.u2(s.d3(x2)), x2)
         y1 = s.f1(up(s.u1(x2), x1) + x1)
         y0 = s.f0(up(s.u0(y1), x0) + x0)
         return s.head(y0).float()

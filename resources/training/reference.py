@@ -26,6 +26,8 @@ def conv(w, name, x):
     """x: C (D) H W, zeros outside; kernel k, stride, dilation as the record says."""
     l = w.layers[name]
     weight = w.z[name + '.weight'].astype(np.float32)
+    if name + '.scale' in w.z:
+        weight *= w.z[name + '.scale'].astype(np.float32).reshape(-1, *[1] * (weight.ndim - 1))
     n, k, s, r = l['dimensions'], l['kernel'], l['stride'], l['dilation']
     pad = r * (k // 2)
     xp = np.pad(x, [(0, 0)] + [(pad, pad)] * n)
@@ -43,6 +45,10 @@ def chain(w, x, *names):
     for name in names:
         x = conv(w, name, x)
     return x
+
+
+def residual(w, name, x):
+    return x + chain(w, x, name + '.0', name + '.1')
 
 
 def up(x, like):
@@ -98,8 +104,8 @@ def volume(w, e, image):
     x0 = leaky(conv(w, p + 'input', e) + chain(w, image, p + 'image.0', p + 'image.1', p + 'image.2')[:, None])
     x0 = x0 + conv(w, p + 'e0', x0)
     x1 = chain(w, x0, p + 'd1', p + 'e1')
-    x2 = chain(w, x1, p + 'd2', p + 'e2.0', p + 'e2.1')
-    x3 = chain(w, x2, p + 'd3', p + 'e3.0', p + 'e3.1')
+    x2 = residual(w, p + 'r2', chain(w, x1, p + 'd2', p + 'e2.0', p + 'e2.1'))
+    x3 = residual(w, p + 'r3', chain(w, x2, p + 'd3', p + 'e3.0', p + 'e3.1'))
     y2 = conv(w, p + 'f2', up(conv(w, p + 'u2', x3), x2) + x2)
     y1 = conv(w, p + 'f1', up(conv(w, p + 'u1', y2), x1) + x1)
     y0 = conv(w, p + 'f0', up(conv(w, p + 'u0', y1), x0) + x0)
@@ -148,9 +154,10 @@ def selection(w, e, image, h, logp, known):
     small = np.concatenate([chain(w, e[:, i], p + 'reduce.a', p + 'reduce.b') for i in range(len(h))])
     flag = np.full((1, *h.shape[1:]), known, np.float32)
     x = np.concatenate((small, np.clip(logp, -12, 0) / 4, squash(h[1:] - h[:1]), flag, image)).astype(np.float32)
-    x0 = chain(w, x, p + 'i.0', p + 'i.1')
-    x1 = chain(w, x0, p + 'd1.0', p + 'd1.1')
+    x0 = residual(w, p + 'r0', chain(w, x, p + 'i.0', p + 'i.1'))
+    x1 = residual(w, p + 'r1', chain(w, x0, p + 'd1.0', p + 'd1.1'))
     x2 = chain(w, x1, p + 'd2.0', p + 'd2.1', p + 'd2.2', p + 'd2.3')
+    x2 = x2 + up(chain(w, x2, p + 'd3.0', p + 'd3.1', p + 'd3.2', p + 'u2'), x2)
     y1 = conv(w, p + 'f1', up(conv(w, p + 'u1', x2), x1) + x1)
     y0 = conv(w, p + 'f0', up(conv(w, p + 'u0', y1), x0) + x0)
     return conv(w, p + 'head', y0)

@@ -124,8 +124,12 @@ inline void for_step(int step, const ConvolveSteps& convolve_steps) {
       return convolve_steps(Whole<96>());
     case 128:
       return convolve_steps(Whole<128>());
-    default:
+    case 192:
       return convolve_steps(Whole<192>());
+    case 256:
+      return convolve_steps(Whole<256>());
+    default:
+      __builtin_trap();  // A layer of other channels needs a case.
   }
 }
 

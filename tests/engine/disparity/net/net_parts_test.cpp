@@ -15,6 +15,7 @@ namespace {
 
 // Layers round sums of up to 1728 products; see net_layers_test.
 constexpr double kTolerance = 2e-4;
+constexpr int kBand = 4;
 
 struct PlainTensor {
   NetShape shape;
@@ -135,7 +136,7 @@ int add_tensor(NetStream& stream, const PlainTensor& tensor) {
 double difference(NetStream& stream, int node, const PlainTensor& expected) {
   double largest = 0;
   stream.run(
-      node, 64,
+      node, kBand,
       [&](int y, const NetRows& rows) {
         for (int z = 0; z < expected.shape.depth; ++z) {
           for (int x = 0; x < expected.shape.width; ++x) {
@@ -177,7 +178,7 @@ void NetPartsTest::volume_isThatOfTheCpu() {
 }
 
 void NetPartsTest::selection_isThatOfTheCpu() {
-  const PlainTensor input = random_tensor({kNetSelectionInputs, 1, 9, 7});
+  const PlainTensor input = random_tensor({kNetSelectionInputs, 1, 17, 20});
   NetStream stream;
   const int node = add_net_selection(stream, released_weights(), add_tensor(stream, input));
 

@@ -65,8 +65,9 @@ void NetWeightsTest::release_isRead() {
   const NetLayer& layer = weights.layer("selection.d1.0");
   QCOMPARE(layer.form.inputs, 64);
   const auto array = std::ranges::find(arrays.arrays, "selection.d1.0.weight", &NamedArray::name);
+  const auto scale = std::ranges::find(arrays.arrays, "selection.d1.0.scale", &NamedArray::name);
   // Output 17, input 3, row 2, column 1 of the kernel.
-  const float value = array->values[((17 * 64 + 3) * 3 + 2) * 3 + 1];
+  const float value = array->values[((17 * 64 + 3) * 3 + 2) * 3 + 1] * scale->values[17];
   QCOMPARE(layer.weights_data()[layer.group_stride() + 7 * layer.tap_stride() + 3 * 16 + 1], value);
 }
 
