@@ -8283,6 +8283,26 @@ s</translation>
         <source>segmentations</source>
         <translation>Segmentierungen</translation>
     </message>
+    <message>
+        <source>disparity as stored in gt_disp_highres.pfm, in the middle of each pixel</source>
+        <translation>Disparität wie in gt_disp_highres.pfm gespeichert, in der Mitte jedes Pixels</translation>
+    </message>
+    <message>
+        <source>disparity as stored in gt_disp_lowres.pfm</source>
+        <translation>Disparität wie in gt_disp_lowres.pfm gespeichert</translation>
+    </message>
+    <message>
+        <source>disparity as stored in gt_disp_lowres_Cam*.pfm</source>
+        <translation>Disparität wie in gt_disp_lowres_Cam*.pfm gespeichert</translation>
+    </message>
+    <message>
+        <source>disparity from gt_depth_lowres.pfm and the camera of parameters.cfg</source>
+        <translation>Disparität aus gt_depth_lowres.pfm und der Kamera in parameters.cfg</translation>
+    </message>
+    <message>
+        <source>no truth in this folder</source>
+        <translation>keine wahren Werte in diesem Ordner</translation>
+    </message>
 </context>
 <context>
     <name>episcope::ScribbleController</name>

@@ -260,7 +260,7 @@ bool ViewGridCells::event(QEvent* event) {
 
 void ViewGridCells::paintEvent(QPaintEvent*) {
   QPainter painter(this);
-  if (grid_.count() <= 0) {
+  if (grid_.count() <= 0 || is_opening_) {
     painter.setPen(theme::muted_text(palette()));
     painter.drawText(rect(), Qt::AlignCenter | Qt::TextWordWrap,
                      is_opening_ ? tr("Opening …") : tr("No views"));

@@ -31,7 +31,7 @@ class ViewGrid : public QWidget {
   /// Starts a light field: no thumbnails, center view current, playing stops.
   void setGrid(GridShape grid);
   void setCurrent(ViewIndex view);
-  /// Tells that a light field is being read, while there is no grid.
+  /// Tells that another light field is being read, in place of thumbnails.
   void setOpening(bool is_opening);
   /// Ignored for a view outside the grid.
   void setThumbnail(ViewIndex view, const QImage& thumbnail);

@@ -657,23 +657,12 @@ void SegmentController::addOverlayCommands() {
                                   {"segment.edges", Quantity::Edges},
                                   {"segment.wrong", Quantity::WrongLabels}}) {
     Overlay& overlay = bench_.overlay;
-    const Quantity quantity = row.quantity;
-    QAction* action = bench_.commands.add(
-        {.id = row.id,
-         .menu = Menu::Map,
-         .text = quantity_button(quantity),
-         .tip = quantity_tip(quantity),
-         .keys = row.keys,
-         .run =
-             [&overlay, quantity] {
-               const bool is_shown = overlay.quantity() == quantity;
-               overlay.setQuantity(is_shown ? Quantity::View : quantity);
-             },
-         .section = section::kMaps,
-         .enabled = [&overlay, quantity] { return overlay.isAvailable(quantity); },
-         .checked = [&overlay, quantity] { return overlay.chosenQuantity() == quantity; },
-         .choice = "overlay",
-         .visible = [&overlay, quantity] { return overlay.isAvailable(quantity); }});
+    Command command = map_command(overlay, row.quantity, row.id);
+    command.keys = row.keys;
+    command.run = [&overlay, quantity = row.quantity] {
+      overlay.setQuantity(overlay.quantity() == quantity ? Quantity::View : quantity);
+    };
+    QAction* action = bench_.commands.add(command);
     panel_->addOverlay(action, QString("button.%1").arg(row.id));
   }
 }

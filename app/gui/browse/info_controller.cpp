@@ -551,7 +551,10 @@ void InfoController::askForGpu() {
 }
 
 void InfoController::show() {
-  if (const auto& scene = bench_.session.scene()) {
+  // The facts of another light field do not stand beside the one that is coming.
+  if (bench_.viewer_area.isPreviewing()) {
+    panel_->setInfo(tr("Opening …"), {}, {});
+  } else if (const auto& scene = bench_.session.scene()) {
     SceneInfo info = describe(*scene, gpu_, conventions_);
     const auto sign = std::ranges::find(info.rows, QString("sign"), &InfoRow::id);
     if (sign != info.rows.end() && canReverseSign()) {
@@ -560,8 +563,7 @@ void InfoController::show() {
     }
     panel_->setInfo(info.title, info.rows, info.warnings);
   } else {
-    panel_->setInfo(bench_.viewer_area.isPreviewing() ? tr("Opening …") : tr("Nothing is open"), {},
-                    {});
+    panel_->setInfo(tr("Nothing is open"), {}, {});
   }
 }
 

@@ -329,19 +329,8 @@ void CompareController::addOverlayCommands() {
   for (const QuantityInfo& info : render::quantities()) {
     const bool is_of_labels = info.subject == render::Subject::Segmentation;
     if (is_of_labels || info.quantity == Quantity::Difference) continue;  // elsewhere
-    const Quantity quantity = info.quantity;
-    const auto is_available = [this, quantity] { return overlay_.isAvailable(quantity); };
-    bench_.commands.add(
-        {.id = "overlay." + (quantity == Quantity::View ? QString("none") : QString(info.id)),
-         .menu = Menu::Map,
-         .text = quantity_button(quantity),
-         .tip = quantity_tip(quantity),
-         .run = [this, quantity] { overlay_.setQuantity(quantity); },
-         .section = section::kMaps,
-         .enabled = is_available,
-         .checked = [this, quantity] { return overlay_.chosenQuantity() == quantity; },
-         .choice = "overlay",
-         .visible = is_available});
+    const QString id = info.quantity == Quantity::View ? "none" : info.id;
+    bench_.commands.add(map_command(overlay_, info.quantity, "overlay." + id));
   }
   QAction* color = bench_.commands.add(
       {.id = "overlay.color",

@@ -14,6 +14,7 @@
 #include "app/session/load_scene.h"
 #include "app/session/result_files.h"
 #include "app/session/session.h"
+#include "engine/core/error.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/controls/parameter_form.h"
 #include "widgets/controls/text.h"
@@ -303,22 +304,28 @@ void FileController::openAny(const QString& path) {
   is_result(path) ? openResult(path) : bench_.opener.open(path);
 }
 
-void FileController::openResult(const QString& path, const QStringList& rest) {
+void FileController::openResult(const QString& path, const QStringList& rest,
+                                const QStringList& failures) {
   bench_.jobs.start<ResultOwner>(
       Lane::Load, tr("Opening %1").arg(QFileInfo(path).fileName()),
       [path = path.toStdString(), front = bench_.session.light_field(),
        input = bench_.session.input()](const Progress&) {
-        return owner_of_result(path, front.get(), input);
+        try {
+          return owner_of_result(path, front.get(), input);
+        } catch (const IoError&) {
+          return ResultOwner();  // Whoever opens it says so, and goes on with the others.
+        }
       },
-      [this, path, rest](const ResultOwner& owner) {
+      [this, path, rest, failures](const ResultOwner& owner) {
         const bool is_of_front =
             owner.input.empty() || is_same_input(owner.input, bench_.session.input());
         if (!bench_.session.scene()) {
           // Of an unknown owner the opener says what is wrong.
-          return is_of_front ? openFirst(path, rest, {}) : openOwner(path, owner, rest);
+          return is_of_front ? openFirst(path, rest, failures)
+                             : openOwner(path, owner, rest, failures);
         }
         is_of_front ? bench_.results.open(path) : askWhereItBelongs(path, owner);
-        openAll(rest, {});
+        openAll(rest, failures);
       });
 }
 
@@ -348,12 +355,12 @@ void FileController::askWhereItBelongs(const QString& path, const ResultOwner& o
 
 // A map beside views may be their truth, which is read with them.
 void FileController::openOwner(const QString& path, const ResultOwner& owner,
-                               const QStringList& rest) {
+                               const QStringList& rest, const QStringList& failures) {
   const auto scenes = bench_.session.scenes();
   const auto known = std::ranges::find_if(
       scenes, [&](const OpenScene* each) { return is_same_input(each->input, owner.input); });
   const std::string input = known == scenes.end() ? owner.input : (*known)->input;
-  bench_.opener.open(QString::fromStdString(input), [this, path, rest, owner] {
+  const auto go_on = [this, path, rest, failures, owner] {
     if (owner.is_stated) {
       bench_.results.open(path);
     } else {
@@ -362,8 +369,12 @@ void FileController::openOwner(const QString& path, const ResultOwner& owner,
                               if (bench_.session.scene()) bench_.results.open(path);
                             });
     }
-    openAll(rest, {});
-  });
+    openAll(rest, failures);
+  };
+  bench_.opener.open(QString::fromStdString(input), go_on,
+                     [this, rest, failures](const QString& failure) {
+                       openAll(rest, QStringList(failures) << failure);
+                     });
 }
 
 // Opens one after the other, since each replaces the one being opened; results last, since they
@@ -379,8 +390,8 @@ void FileController::openAll(QStringList paths, const QStringList& failures) {
   if (bench_.session.scene() && is_result(path)) {
     openResult(path);
     openAll(paths, failures);
-  } else if (failures.isEmpty() && is_result(path)) {
-    openResult(path, paths);
+  } else if (is_result(path)) {
+    openResult(path, paths, failures);
   } else {
     openFirst(path, paths, failures);
   }

@@ -39,9 +39,11 @@ class FileController : public QObject {
   void openAny(const QString& path);
   /// Adds a result to the light field in front. If it belongs to another one, asks, and opens that
   /// without a question while nothing is open; then opens the `rest`.
-  void openResult(const QString& path, const QStringList& rest = {});
+  void openResult(const QString& path, const QStringList& rest = {},
+                  const QStringList& failures = {});
   void askWhereItBelongs(const QString& path, const ResultOwner& owner);
-  void openOwner(const QString& path, const ResultOwner& owner, const QStringList& rest = {});
+  void openOwner(const QString& path, const ResultOwner& owner, const QStringList& rest = {},
+                 const QStringList& failures = {});
   void openAll(QStringList paths, const QStringList& failures);
   void openFirst(const QString& path, const QStringList& rest, const QStringList& failures);
   void remember(const QString& input);

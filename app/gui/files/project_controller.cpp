@@ -476,13 +476,14 @@ void SceneChooser::fill() {
     list_->addItem(text_of(*scene), QVariant::fromValue<qulonglong>(scene->id));
     list_->setItemData(list_->count() - 1, QString::fromStdString(scene->input), Qt::ToolTipRole);
   }
-  list_->setCurrentIndex(
-      list_->findData(QVariant::fromValue<qulonglong>(bench_.session.generation())));
+  const bool is_opening = bench_.viewer_area.isPreviewing();
+  const auto shown = QVariant::fromValue<qulonglong>(bench_.session.generation());
+  list_->setCurrentIndex(is_opening ? -1 : list_->findData(shown));
   const bool is_empty = list_->count() == 0;
   list_->setEnabled(!is_empty);
-  list_->setPlaceholderText(!is_empty                           ? tr("none of these is shown")
-                            : bench_.viewer_area.isPreviewing() ? tr("opening …")
-                                                                : tr("nothing is open"));
+  list_->setPlaceholderText(is_opening ? tr("opening …")
+                            : is_empty ? tr("nothing is open")
+                                       : tr("none of these is shown"));
 }
 
 WindowTitle::WindowTitle(const Workbench& bench, const Autosave& autosave,

@@ -439,6 +439,20 @@ void OverlayPictures::clear() {
   ++generation_;
 }
 
+Command map_command(Overlay& overlay, Quantity quantity, const QString& id) {
+  const auto is_available = [&overlay, quantity] { return overlay.isAvailable(quantity); };
+  return {.id = id,
+          .menu = Menu::Map,
+          .text = quantity_button(quantity),
+          .tip = quantity_tip(quantity),
+          .run = [&overlay, quantity] { overlay.setQuantity(quantity); },
+          .section = section::kMaps,
+          .enabled = is_available,
+          .checked = [&overlay, quantity] { return overlay.chosenQuantity() == quantity; },
+          .choice = "overlay",
+          .visible = is_available};
+}
+
 bool is_of_result(Quantity quantity) {
   const render::Subject subject = render::info_of(quantity).subject;
   return subject == render::Subject::Result || subject == render::Subject::Error;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/gui/scene/viewer_area.h"
+#include "app/gui/shell/commands.h"
 #include "app/session/picture.h"
 #include "app/session/quantity_map.h"
 #include "app/session/session.h"
@@ -178,6 +179,9 @@ class Overlay : public QObject {
   QImage picture_;
   OverlayPictures pictures_;
 };
+
+/// Command of the menu of maps that shows a quantity, without keys.
+[[nodiscard]] Command map_command(Overlay& overlay, render::Quantity quantity, const QString& id);
 
 /// Whether a quantity shows a result or its error.
 [[nodiscard]] bool is_of_result(render::Quantity quantity);

@@ -261,17 +261,16 @@ DisparityField read_reduced(const HighResFiles& high_res, const SidecarViews& vi
 /// Truth of the center of the whole grid, which must be one of the views.
 DisparityField read_stored_center(const fs::path& folder, const SidecarViews& views,
                                   const SidecarNotes& notes) {
-  std::string& units = notes.report.units;
   const fs::path disparity = folder / kCenterDisparity;
   if (is_there(disparity)) {
-    units = "disparity as stored in gt_disp_lowres.pfm";
+    notes.report.units = "disparity as stored in gt_disp_lowres.pfm";
     DisparityField field = read_of_center(disparity, "disparity maps of the center view", views,
                                           notes, [](Image<float>&) {});
     if (!field.empty()) return field;
   }
   const fs::path depth = folder / kCenterDepth;
   if (is_there(depth) && views.camera.is_known() && views.camera.cam_distance) {
-    units = "disparity from gt_depth_lowres.pfm and the camera of parameters.cfg";
+    notes.report.units = "disparity from gt_depth_lowres.pfm and the camera of parameters.cfg";
     DisparityField field =
         read_of_center(depth, "depth maps of the center view", views, notes,
                        [&](Image<float>& map) { depth_to_disparity(views.camera, map); });
@@ -279,7 +278,8 @@ DisparityField read_stored_center(const fs::path& folder, const SidecarViews& vi
   }
   const HighResFiles high_res = find_high_res_files(folder);
   if (!high_res.disparity.empty()) {
-    units = "disparity as stored in gt_disp_highres.pfm, in the middle of each pixel";
+    notes.report.units =
+        "disparity as stored in gt_disp_highres.pfm, in the middle of each pixel";
     DisparityField field = read_reduced(high_res, views, notes);
     if (!field.empty()) return field;
   }
@@ -292,9 +292,8 @@ DisparityField read_stored(const fs::path& folder, const SidecarViews& views,
   for (int i = 0; i < views.grid().count() && has_all; ++i) {
     has_all = is_there(folder / disparity_file_of(views.grid().view_at(i), views.files));
   }
-  std::string& units = notes.report.units;
   if (has_all) {
-    units = "disparity as stored in gt_disp_lowres_Cam*.pfm";
+    notes.report.units = "disparity as stored in gt_disp_lowres_Cam*.pfm";
     DisparityField field = read_of_all_views(folder, views, notes, progress);
     if (!field.empty()) return field;
   }
@@ -302,7 +301,7 @@ DisparityField read_stored(const fs::path& folder, const SidecarViews& views,
     DisparityField field = read_stored_center(folder, views, notes);
     if (!field.empty()) return field;
   }
-  units = "no truth in this folder";
+  notes.report.units = "no truth in this folder";
   return {};
 }
 

@@ -11,9 +11,11 @@
 #include "tests/window_test_main.h"
 #include "widgets/canvas/epi_pane.h"
 #include "widgets/canvas/view_canvas.h"
+#include "widgets/controls/labels.h"
 #include "widgets/controls/message_bar.h"
 #include "widgets/controls/number_spin.h"
 #include "widgets/controls/parameter_form.h"
+#include "widgets/panels/view_grid.h"
 
 #include <QAction>
 #include <QComboBox>
@@ -64,6 +66,16 @@ void choose(WindowFixture& f, const QString& file) {
   QTRY_VERIFY(!f.window.findChild<QFileDialog*>("open_file"));
 }
 
+// Whether any pixel is neither grey nor one of the theme's.
+bool is_colored(const QImage& picture) {
+  for (int y = 0; y < picture.height(); ++y) {
+    for (int x = 0; x < picture.width(); ++x) {
+      if (picture.pixelColor(x, y).hsvSaturation() > 80) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 class OpeningTest : public QObject {
@@ -73,6 +85,7 @@ class OpeningTest : public QObject {
   void openedFile_isShown();
   void folderOfASingleLightField_opensIt();
   void epis_areDrawnBeforeTheChecksEnd();
+  void factsAndViews_areNotThoseOfTheFormerWhileAnotherIsRead();
   void readAgain_showsWhatWasWrittenMeanwhile();
   void builtinScene_isEstimatedAtOnce();
   void builtinScenes_areChosenFromAList();
@@ -91,6 +104,7 @@ class OpeningTest : public QObject {
   void mapBesideViews_offersItsLightField();
   void mapAboveTheViewsInFront_isTheirs();
   void resultsAlone_openWithTheirLightField();
+  void resultsAlone_openBesideABrokenOne();
   void resultOfAnotherLightField_isAddedAtWishAndMarked();
   void resultOfAnotherLightField_opensThatWithTheResult();
   void droppedFile_isOpened();
@@ -125,6 +139,27 @@ void OpeningTest::epis_areDrawnBeforeTheChecksEnd() {
 
   QTRY_VERIFY_WITH_TIMEOUT(bench.session.scene(), kScenePatience);
   QVERIFY(was_drawn);
+}
+
+void OpeningTest::factsAndViews_areNotThoseOfTheFormerWhileAnotherIsRead() {
+  WindowFixture f;
+  f.openSmall();
+  ViewerArea& area = f.window.bench().viewer_area;
+  const auto* title = f.window.findChild<ElidedLabel*>("info.title");
+  auto& cells = *find<ViewGrid>(f.window).cells();
+  const QString former = title->fullText();
+  QTRY_VERIFY_WITH_TIMEOUT(is_colored(cells.grab().toImage()), kPatience);
+
+  area.showPreview(QImage(8, 8, QImage::Format_RGB32), "another");
+
+  QCOMPARE(title->fullText(), QString("Opening …"));
+  QVERIFY(!f.window.findChild<QLabel*>("info.source"));
+  QVERIFY(!is_colored(cells.grab().toImage()));
+
+  area.endPreview();
+
+  QCOMPARE(title->fullText(), former);
+  QVERIFY(is_colored(cells.grab().toImage()));
 }
 
 void OpeningTest::folderOfASingleLightField_opensIt() {
@@ -412,6 +447,25 @@ void OpeningTest::resultsAlone_openWithTheirLightField() {
   QTRY_COMPARE_WITH_TIMEOUT(other.window.bench().session.estimates().size(), 2U, kScenePatience);
   QCOMPARE(other.window.bench().session.light_field()->info().name, std::string("slant"));
   QVERIFY(!other.window.findChild<QMessageBox*>("result_owner"));
+}
+
+void OpeningTest::resultsAlone_openBesideABrokenOne() {
+  WindowFixture f;
+  f.openSmall("slant");
+  f.runAndWait();
+  exportShown(f, f.path("whole.h5"));
+  QFile whole(f.path("whole.h5")), broken(f.path("broken.h5"));
+  QVERIFY(whole.open(QIODevice::ReadOnly) && broken.open(QIODevice::WriteOnly));
+  broken.write(whole.read(whole.size() / 2));
+  broken.close();
+
+  WindowFixture other;
+  other.window.start({f.path("broken.h5"), f.path("whole.h5")});
+
+  QTRY_COMPARE_WITH_TIMEOUT(other.window.bench().session.estimates().size(), 1U, kScenePatience);
+  const auto* messages = other.window.findChild<MessageBar*>("messageBar");
+  QTRY_VERIFY2(messages->isVisible() && messages->text().contains("broken.h5"),
+               qPrintable(messages->text()));
 }
 
 void OpeningTest::resultOfAnotherLightField_isAddedAtWishAndMarked() {
