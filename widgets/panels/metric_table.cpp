@@ -272,18 +272,14 @@ void MetricTable::addColumnsTo(QMenu& menu) {
     action->setCheckable(true);
     action->setChecked(!isHidden(column));
     connect(action, &QAction::toggled, this, [this, key = column.key](bool is_wanted) {
-      if (is_wanted) {
-        hidden_.remove(key);
-      } else {
-        hidden_.insert(key);
-      }
+      chosen_[key] = is_wanted;
       fill();
     });
   }
 }
 
 bool MetricTable::isHidden(const MetricColumn& column) const {
-  return hidden_.contains(column.key);
+  return !chosen_.value(column.key, !column.is_minor);
 }
 
 QString MetricTable::toCsv() const {

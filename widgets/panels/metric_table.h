@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <QSet>
+#include <QHash>
 #include <QString>
 #include <QStringList>
 #include <QVariant>
@@ -25,7 +25,8 @@ struct MetricColumn {
   QString help;   ///< Tool tip.
   int decimals = 3;
   BestValue best = BestValue::None;
-  bool is_shown = true;  ///< Else it stands in copied and saved tables only.
+  bool is_shown = true;   ///< Else it stands in copied and saved tables only.
+  bool is_minor = false;  ///< Hidden until it is chosen in the menu of columns.
   friend bool operator==(const MetricColumn&, const MetricColumn&) = default;
 };
 
@@ -87,7 +88,7 @@ class MetricTable : public QWidget {
 
   std::vector<MetricColumn> columns_;
   std::vector<MetricRow> rows_;
-  QSet<QString> hidden_;  // keys of columns
+  QHash<QString, bool> chosen_;  // Whether the columns with these keys are wanted.
   QTableWidget* table_;
   QLabel* empty_;
   QToolButton* copy_csv_;

@@ -124,6 +124,26 @@ void MetricController::update(Parts parts) {
   }
 }
 
+namespace {
+
+// What the narrow table says otherwise, or what is so in nearly every result, is left to its menu.
+void hide_minor(std::vector<MetricColumn>& columns, const std::vector<MetricRow>& rows) {
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    MetricColumn& column = columns[i];
+    const auto is_whole = [i](const MetricRow& row) {
+      return !row.values[i].isValid() || row.values[i].toDouble() == 100;
+    };
+    const auto is_one_of = [&column](std::initializer_list<const char*> names) {
+      return std::ranges::any_of(names,
+                                 [&](const char* name) { return column.key.endsWith(name); });
+    };
+    column.is_minor = is_one_of({".runtime_log", ".mse_100_inset15", ".q_25_100"}) ||
+                      (is_one_of({".density"}) && std::ranges::all_of(rows, is_whole));
+  }
+}
+
+}  // namespace
+
 void MetricController::fillTable() {
   const auto& scene = session_.scene();
   if (!scene || (!scene->truth->has_disparity() && !scene->truth->has_layers())) {
@@ -156,6 +176,7 @@ void MetricController::fillTable() {
       rows.back().values.emplace_back(cell);
     }
   }
+  hide_minor(columns, rows);
   table_->setTable(columns, rows);
 }
 

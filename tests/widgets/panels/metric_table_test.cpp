@@ -137,6 +137,21 @@ class MetricTableTest : public QObject {
     QVERIFY(table.toCsv().contains("plain"));
   }
 
+  void minorColumn_isShownOnceItIsChosen() {
+    auto few = columns();
+    few[1].is_minor = true;
+    MetricTable table;
+    table.setTable(few, rows());
+    table.show();
+    auto* inner = table.findChild<QTableWidget*>();
+    QVERIFY(inner->isColumnHidden(1) && !inner->isColumnHidden(2));
+
+    emit inner->customContextMenuRequested({});
+    table.findChild<QMenu*>("metrics.columns")->actions().at(0)->trigger();
+
+    QVERIFY(!inner->isColumnHidden(1));
+  }
+
   void nan_isSortedLastAndShownAsAbsent() {
     MetricTable table;
     table.resize(500, 300);
