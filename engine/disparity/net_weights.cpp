@@ -88,16 +88,15 @@ constexpr NetLayerForm kForms[] = {
     {"refinement.1.head", 2, 48, 2, 3, 1, 1, true, false},
 };
 
-bool has_array(const NamedArrays& arrays, const std::string& name) {
-  return std::ranges::find(arrays.arrays, name, &NamedArray::name) != arrays.arrays.end();
+/// Null if there is none.
+const NamedArray* find_array(const NamedArrays& arrays, const std::string& name) {
+  const auto found = std::ranges::find(arrays.arrays, name, &NamedArray::name);
+  return found == arrays.arrays.end() ? nullptr : &*found;
 }
 
 const NamedArray& array_of(const NamedArrays& arrays, const std::string& name) {
-  const auto found = std::ranges::find(arrays.arrays, name, &NamedArray::name);
-  if (found == arrays.arrays.end()) {
-    throw InvalidInput("the weights of net lack " + name + "; choose another file of weights");
-  }
-  return *found;
+  if (const NamedArray* found = find_array(arrays, name)) return *found;
+  throw InvalidInput("the weights of net lack " + name + "; choose another file of weights");
 }
 
 std::string text_of(const std::vector<std::size_t>& shape) {
@@ -122,7 +121,7 @@ const std::vector<float>& values_of(const NamedArrays& arrays, const std::string
 std::vector<float> weights_of(const NamedArrays& arrays, const std::string& name,
                               const std::vector<std::size_t>& shape) {
   std::vector<float> weights = values_of(arrays, name + ".weight", shape);
-  if (!has_array(arrays, name + ".scale")) return weights;
+  if (find_array(arrays, name + ".scale") == nullptr) return weights;
   const std::vector<float>& scales = values_of(arrays, name + ".scale", {shape[0]});
   const std::size_t each = weights.size() / shape[0];
   for (std::size_t i = 0; i < weights.size(); ++i) weights[i] *= scales[i / each];

@@ -151,9 +151,8 @@ void CopiedCommandTest::everyMethod_runsAsItsCopiedLine_data() {
   QTest::addColumn<bool>("all_views");
   for (const Estimator& estimator : registered_estimators()) {
     const QString id = QString::fromStdString(estimator.info.id);
-    const auto row = [&](const char* what) { return qPrintable(id + ' ' + what); };
-    QTest::newRow(row("with defaults")) << id << true << false;
-    QTest::newRow(row("with other parameters")) << id << false << false;
+    QTest::newRow(qPrintable(id + " with defaults")) << id << true << false;
+    QTest::newRow(qPrintable(id + " with other parameters")) << id << false << false;
   }
   QTest::newRow("epi_s of all views") << QString("epi_s") << false << true;
 }
