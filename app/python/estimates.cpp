@@ -152,12 +152,18 @@ py::dict score_scene(const py::object& map, const OpenedScene& opened, Evaluatio
     const std::string doubt =
         better ? better_reading_finding(*better) : poor_fit_text(*estimate, *opened.scene);
     if (!doubt.empty()) judged.notes.push_back(doubt);
+    for (std::string& warning : truth_warnings(opened.scene->convention)) {
+      judged.notes.push_back(std::move(warning));
+    }
     return judged;
   });
   const bool has_all_views = estimate->field.disparity.grid() == lf.grid();
   py::dict scores = scores_of(*estimate, evaluation, options.protocol, has_all_views);
   if (better) scores["better_reading"] = object_from(better_reading_json(*better));
   scores["truth"] = opened.input;
+  if (const auto& units = opened.scene->convention.units; !units.empty()) {
+    scores["truth_units"] = units;
+  }
   scores["view"] = view_tuple(at);
   return scores;
 }

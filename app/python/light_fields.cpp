@@ -227,6 +227,15 @@ None without truth.)")
       .def_property_readonly(
           "source", [](const OpenedScene& opened) { return opened.input; },
           "What opens it again; empty for an array.")
+      .def_property_readonly(
+          "order", [](const OpenedScene& opened) { return opened.scene->convention.order; },
+          "The order of views that was found.")
+      .def_property_readonly(
+          "sign", [](const OpenedScene& opened) { return opened.scene->convention.sign; },
+          "How near and far were told apart; empty if they could not be.")
+      .def_property_readonly(
+          "units", [](const OpenedScene& opened) { return opened.scene->convention.units; },
+          "What the numbers of the truth were taken for.")
       .def_property_readonly("notes", &OpenedScene::notes,
                              "What one should know of how it was read, a sentence each.")
       .def("__repr__", text_of);

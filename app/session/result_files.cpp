@@ -6,6 +6,7 @@
 #include "app/session/load_scene.h"
 #include "engine/core/disparity_field.h"
 #include "engine/core/error.h"
+#include "engine/core/finding.h"
 #include "engine/core/hash.h"
 #include "engine/core/shear.h"
 #include "engine/core/text.h"
@@ -247,6 +248,16 @@ std::optional<io::BetterReading> find_better_reading(const Estimate& estimate, c
   // This program writes NaN where nothing is known: a value that many pixels have ends its range.
   const bool is_own = !estimate.version.empty();
   return better && is_own && !better->reading.missing.empty() ? std::nullopt : std::move(better);
+}
+
+std::vector<std::string> truth_warnings(const ConventionReport& report) {
+  std::vector<std::string> warnings = report.warnings;
+  std::erase_if(warnings, [](const std::string& warning) {
+    const auto finding = finding_of(warning);
+    return !finding || !(finding->code.starts_with("truth.") || finding->code.starts_with("map.") ||
+                         finding->code.starts_with("depth."));
+  });
+  return warnings;
 }
 
 std::string poor_fit_text(const Estimate& estimate, const Scene& scene) {

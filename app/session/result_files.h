@@ -58,6 +58,9 @@ namespace episcope {
 /// Says so of a map of any origin; else empty.
 [[nodiscard]] std::string poor_fit_text(const DisparityView& map, const DisparityView& truth);
 
+/// The warnings of a scene that tell of the truth by which results are judged.
+[[nodiscard]] std::vector<std::string> truth_warnings(const ConventionReport& report);
+
 /// What speaks against a result: that another reading, if one was found, fits far better
 /// (better_reading_text), or else that it explains little of the truth (poor_fit_text); else empty.
 [[nodiscard]] std::string doubt_text(const std::optional<io::BetterReading>& better,

@@ -50,7 +50,7 @@ SceneSummary::Truth summarize_truth(const DisparityField& field, const LightFiel
   }
   return {covered_views(stack, light_field),
           100.0 * static_cast<double>(all.valid) / static_cast<double>(stack.size()),
-          center.interval(), all.interval()};
+          center.valid > 0 ? std::optional(center.interval()) : std::nullopt, all.interval()};
 }
 
 }  // namespace

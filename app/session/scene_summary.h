@@ -19,8 +19,8 @@ struct SceneSummary {
   struct Truth {
     std::string views;  ///< "all", "center", or "4,4".
     double valid_percent = 0;
-    Interval center;  ///< Disparities in the center view; {0, 0} if it has none.
-    Interval all;     ///< In all views that have truth.
+    std::optional<Interval> center;  ///< Disparities in the center view, if it has any.
+    Interval all;                    ///< In all views that have truth.
   };
   std::string sample_type;  ///< "uint8", "uint16", "float32".
   std::optional<Truth> truth;

@@ -2236,8 +2236,8 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>%1 wird nicht verwendet: Eine Schicht fehlt.</translation>
     </message>
     <message>
-        <source>%1 of %2 samples of the views are NaN or infinite; they are read as 0.</source>
-        <translation>%1 von %2 Samples der Ansichten sind NaN oder unendlich; sie werden als 0 gelesen.</translation>
+        <source>%1 of %2 samples of the views are NaN or infinite; their pixels do not count.</source>
+        <translation>%1 von %2 Samples der Ansichten sind NaN oder unendlich; ihre Pixel zählen nicht.</translation>
     </message>
     <message>
         <source>%1 samples are NaN or infinite</source>

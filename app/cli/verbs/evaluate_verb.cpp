@@ -22,6 +22,7 @@
 #include <iostream>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace episcope::cli {
@@ -215,6 +216,7 @@ struct EvaluateRequest {
 struct Row {
   std::string file;
   std::string truth;
+  std::string truth_units;  ///< What its numbers were taken for.
   std::string method;
   double seconds = 0;
   bool has_all_views = false;
@@ -326,6 +328,7 @@ Json row_json(const EvaluateRequest& request, const Row& row) {
   result["file"] = row.file;
   result["method"] = row.method;
   result["truth"] = row.truth;
+  if (!row.truth_units.empty()) result["truth_units"] = row.truth_units;
   result["view"] = view_json(row.view);
   for (const auto& [key, value] : row.metrics) result[key] = value;
   if (row.seconds > 0) {
@@ -403,6 +406,12 @@ TextTable results_table(const EvaluateRequest& request, const std::vector<Row>& 
   return table;
 }
 
+/// What the numbers of a single truth were taken for.
+std::string truth_line(const std::vector<Row>& rows) {
+  const std::string& units = rows.front().truth_units;
+  return has_several_truths(rows) || units.empty() ? "" : "\ntruth: " + units;
+}
+
 void print_results(const EvaluateRequest& request, const JudgedResults& judged, const Job& job) {
   const std::vector<Row>& rows = judged.rows;
   if (request.format == Format::Json) {
@@ -421,7 +430,7 @@ void print_results(const EvaluateRequest& request, const JudgedResults& judged, 
   } else {
     std::cout << protocol_name(request.protocol) << " against "
               << (has_several_truths(rows) ? "the truth of each" : rows.front().truth) << ", view "
-              << view_text(rows.front().view) << "\nmissing values count as "
+              << view_text(rows.front().view) << truth_line(rows) << "\nmissing values count as "
               << missing_rule(request.invalid) << "\n\n"
               << table_to_narrow_text(table);
   }
@@ -505,6 +514,7 @@ class Judge {
     if (!file.is_own) note_other_source(*estimate, light_field, job_);
     Row row{.file = file.result,
             .truth = file.truth,
+            .truth_units = scene.convention.units,
             .method = estimate->method,
             .seconds = estimate->seconds,
             .has_all_views = estimate->field.disparity.grid() == light_field.grid(),
@@ -519,6 +529,9 @@ class Judge {
     }
     const std::string doubt = doubt_text(row.better, *estimate, scene);
     if (!doubt.empty()) row.notes.push_back(doubt);
+    for (std::string& warning : truth_warnings(scene.convention)) {
+      row.notes.push_back(std::move(warning));
+    }
     for (const std::string& sentence : row.notes) job_.note(file.result + ": " + sentence);
     write_error_map(error_map, {.view = view, .estimate = estimate, .evaluation = evaluation});
     return row;

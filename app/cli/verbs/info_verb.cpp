@@ -404,8 +404,10 @@ void add_truth(Json& json, const Scene& scene, const SceneSummary& summary) {
   if (summary.truth) {
     json["truth"] = Json::object({{"views", summary.truth->views},
                                   {"valid_percent", summary.truth->valid_percent},
-                                  {"disparity_center", interval_json(summary.truth->center)},
                                   {"disparity", interval_json(summary.truth->all)}});
+    if (const auto& center = summary.truth->center) {
+      json["truth"]["disparity_center"] = interval_json(*center);
+    }
   }
   if (const auto& estimated = scene.truth->estimated) {
     json["truth_estimated"] =
@@ -536,9 +538,9 @@ void print_positions(const LightFieldInfo& info) {
 void print_true_disparity(const SceneSummary::Truth& truth) {
   print_line(
       "truth",
-      fmt::format("disparity of {} view{}, {:.4g} % of the pixels, {} in the center view{}",
-                  truth.views, truth.views == "all" ? "s" : "", truth.valid_percent,
-                  range_text(truth.center),
+      fmt::format("disparity of {} view{}, {:.4g} % of the pixels{}{}", truth.views,
+                  truth.views == "all" ? "s" : "", truth.valid_percent,
+                  truth.center ? ", " + range_text(*truth.center) + " in the center view" : "",
                   truth.all == truth.center ? "" : ", " + range_text(truth.all) + " in all"));
 }
 

@@ -272,15 +272,23 @@ void scale_float_samples(LightField::Samples& samples, ConventionReport& report)
       fmt::format(finding_text("samples.divided"), std::lround(largest), divisor));
 }
 
-void zero_nonfinite_samples(LightField::Samples& samples, ConventionReport& report) {
+void drop_nonfinite_samples(LightField::Samples& samples, ViewStack<std::uint8_t>& valid,
+                            ConventionReport& report) {
   ViewStack<float>* stack = floats_of(samples);
   if (stack == nullptr) return;
+  const auto channels = static_cast<std::size_t>(stack->channels());
   std::size_t odd = 0;
-  std::for_each(stack->data(), stack->data() + stack->size(), [&](float& sample) {
-    if (std::isfinite(sample)) return;
+  for (std::size_t i = 0; i < stack->size(); ++i) {
+    float& sample = stack->data()[i];
+    if (std::isfinite(sample)) continue;
+    if (valid.empty()) {
+      valid = ViewStack<std::uint8_t>(stack->grid(), stack->height(), stack->width());
+      std::fill_n(valid.data(), valid.size(), std::uint8_t{1});
+    }
     sample = 0;
+    valid.data()[i / channels] = 0;
     ++odd;
-  });
+  }
   if (odd == 0) return;
   report.warnings.push_back(fmt::format(finding_text("samples.not_finite"), odd, stack->size()));
 }

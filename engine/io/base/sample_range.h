@@ -38,8 +38,10 @@ void settle_range(LightField::Samples& samples, const std::string& levels,
 /// million samples are looked at. Integers stay as they are.
 void scale_float_samples(LightField::Samples& samples, ConventionReport& report);
 
-/// Sets NaN and infinite samples to 0 and tells `report` how many. To be called after the check of
-/// the order of views, which bridges such samples.
-void zero_nonfinite_samples(LightField::Samples& samples, ConventionReport& report);
+/// Sets NaN and infinite samples to 0, marks their pixels as invalid (`valid`: 0 = invalid, empty =
+/// all are valid) and tells `report` how many. To be called after the check of the order of views,
+/// which bridges such samples.
+void drop_nonfinite_samples(LightField::Samples& samples, ViewStack<std::uint8_t>& valid,
+                            ConventionReport& report);
 
 }  // namespace episcope::io

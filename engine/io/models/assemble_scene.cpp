@@ -310,7 +310,7 @@ void assemble(SceneParts parts, const OpenOptions& options, Scene& scene,
   bring_in_order(parts, options, scene.convention, progress.part(0, 0.3));
   show_epis(parts.samples, options);  // in another order, perhaps
   scene.convention.files = std::move(parts.files);
-  zero_nonfinite_samples(parts.samples, scene.convention);
+  drop_nonfinite_samples(parts.samples, parts.valid, scene.convention);
   keep_what_was_seen(parts, options, scene.convention, progress.part(0.3, 0.7));
   equalize_views(parts, options, scene.convention, progress.part(0.7, 1));
   std::string& samples_text = scene.convention.samples;

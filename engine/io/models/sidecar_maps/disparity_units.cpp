@@ -20,8 +20,10 @@ namespace {
 
 /// A map that explains views this well needs no comparison with other units.
 constexpr double kPlainUnit = 0.5;
-/// Another unit must leave at most this share of the error.
+/// Another unit must leave at most this share of the error, and this one of that without warping:
+/// values that lack a constant are off by more than any unit, and small ones explain a little.
 constexpr double kClearlyBetterUnit = 0.85;
+constexpr double kOtherUnit = 0.7;
 
 struct ScaledMap {
   Image<float> disparity;
@@ -115,7 +117,7 @@ SettledUnit settle_unit(const LightField::Samples& samples, ViewIndex at, const 
       is_compared ? kClearlyBetterUnit * first.error : std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < units.size(); ++i) {
     const Explanation other = explain_views(samples, at, map, units[i].factor);
-    if (!other.is_good() || other.error >= least) continue;
+    if (other.error >= std::min(kOtherUnit * other.unwarped, least)) continue;
     least = other.error;
     best = {units[i], other, first};
   }

@@ -48,6 +48,22 @@ class FloatSamplesTest : public QObject {
     QVERIFY(report.warnings.empty());
   }
 
+  void nonfiniteSamples_makeTheirPixelsInvalid() {
+    LightField::Samples samples = samples_of([](auto& r) { return uniform(r, 0, 1); });
+    auto& stack = std::get<ViewStack<float>>(samples);
+    stack.view({1, 2}).at(3, 4, 1) = std::nanf("");
+    stack.view({2, 0}).at(39, 49, 0) = INFINITY;
+    ViewStack<std::uint8_t> valid;
+    ConventionReport report;
+
+    io::drop_nonfinite_samples(samples, valid, report);
+
+    QCOMPARE(std::count(valid.data(), valid.data() + valid.size(), std::uint8_t{0}), 2);
+    QVERIFY(valid.view({1, 2}).at(3, 4) == 0 && valid.view({2, 0}).at(39, 49) == 0);
+    QCOMPARE(stack.view({1, 2}).at(3, 4, 1), 0.0F);
+    QCOMPARE(report.warnings.size(), 1U);
+  }
+
   void wholeNumbers_areSamplesOfBytesOrWords() {
     ConventionReport bytes, dark, words;
     QCOMPARE(divisor_of([](auto& r) { return std::floor(uniform(r, 0, 256)); }, bytes), 255.0);

@@ -76,6 +76,26 @@ class MapMeaningTest : public QObject {
     QVERIFY(!found.explanation.is_good());
   }
 
+  // Small numbers explain a little of any views.
+  void unit_staysWhereAConstantIsMissing_data() {
+    QTest::addColumn<float>("constant");
+    for (const float constant : {-4.0F, -3.0F, 3.0F, 4.0F}) {
+      QTest::newRow(qPrintable(QString::number(constant))) << constant;
+    }
+  }
+  void unit_staysWhereAConstantIsMissing() {
+    QFETCH(float, constant);
+    const LayeredScene scene;
+    const ViewIndex center = scene.views.grid().center();
+    Image<float> map = copy(scene.disparity.view(center), 1);
+    for (float& disparity : map) disparity += constant;
+
+    const io::SettledUnit found = io::settle_unit(samples(scene), center, {map.view(), {}},
+                                                  io::common_units(scene.views.grid(), 72));
+
+    QCOMPARE(found.unit.factor, 1.0);
+  }
+
   void exchangedRowsAndColumns_areNoOtherUnit() {
     const LayeredScene scene;
     const ViewIndex center = scene.views.grid().center();
