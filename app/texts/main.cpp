@@ -46,7 +46,7 @@ std::string text_of(const std::filesystem::path& path) {
 // in the source: escapes stay as they are. Throws IoError if a source cannot be read.
 std::set<std::string> literal_sentences(const std::filesystem::path& folder) {
   static const std::regex sentence(
-      R"re((?:[.]step\(|[.](?:step|why_not|format|order|order_check|sign_check|units|units_check|gain) =\s+))re"
+      R"re((?:[.]step\(|[.](?:step|why_not|format|order|order_check|sign_check|units|units_check|gain) = ))re"
       R"re("((?:[^"\\]|\\.)*)"[;)])re");
   std::set<std::string> sentences;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {

@@ -78,7 +78,8 @@ struct NetLayer {
 class NetWeights {
  public:
   /// Weights as `resources/weights/net.npz` holds them: `NAME.weight` `[output][input](z)[y][x]`,
-  /// to be multiplied by `NAME.scale` `[output]` if there is one, and `NAME.bias`. Throws InvalidInput where an array is missing, unknown, or of another shape.
+  /// to be multiplied by `NAME.scale` `[output]` if there is one, and `NAME.bias`. Throws
+  /// InvalidInput where an array is missing, unknown, or of another shape.
   explicit NetWeights(const NamedArrays& arrays);
 
   /// Precondition: the network has a layer of this name.

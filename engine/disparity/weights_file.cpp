@@ -228,19 +228,22 @@ float from_single(std::uint32_t bits) {
 
 NamedArray read_weights(const fs::path& path, const Entry& entry, const Array& array,
                         std::string name) {
-  const bool is_byte = array.type == "|i1", is_half = array.type == "<f2";
-  if (!is_byte && !is_half && array.type != "<f4") {
+  const std::size_t bytes = array.type == "|i1"   ? 1
+                            : array.type == "<f2" ? 2
+                            : array.type == "<f4" ? 4
+                                                  : 0;
+  if (bytes == 0) {
     throw IoError(path, fmt::format("{} holds numbers of the type {} where weights are int8, "
                                     "float16 or float32; choose a file of weights",
                                     name, array.type));
   }
-  require_whole(path, entry, array, is_byte ? 1 : is_half ? 2 : 4);
+  require_whole(path, entry, array, bytes);
   const Bytes samples(path, array.samples);
   NamedArray read{std::move(name), array.shape, std::vector<float>(array.count())};
   for (std::size_t i = 0; i < read.values.size(); ++i) {
-    read.values[i] = is_byte   ? samples.number<std::int8_t>(i)
-                     : is_half ? from_half(samples.number<std::uint16_t>(2 * i))
-                               : from_single(samples.number<std::uint32_t>(4 * i));
+    read.values[i] = bytes == 1   ? samples.number<std::int8_t>(i)
+                     : bytes == 2 ? from_half(samples.number<std::uint16_t>(2 * i))
+                                  : from_single(samples.number<std::uint32_t>(4 * i));
   }
   if (!std::ranges::all_of(read.values, [](float value) { return std::isfinite(value); })) {
     throw IoError(path, read.name + " holds numbers that are not finite; copy the file again");

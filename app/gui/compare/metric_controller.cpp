@@ -61,6 +61,22 @@ MetricRow row_of(const Judged& judged, const std::vector<Place>& places) {
   return row;
 }
 
+// Whether a column is left to the menu of the narrow table: it says what another one says, or what
+// is so in all results.
+bool is_minor(const QString& key, bool is_whole) {
+  return key.endsWith(".runtime_log") || key.endsWith(".mse_100_inset15") ||
+         key.endsWith(".q_25_100") || (key.endsWith(".density") && is_whole);
+}
+
+void mark_minor(std::vector<MetricColumn>& columns, const std::vector<MetricRow>& rows) {
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const bool is_whole = std::ranges::all_of(rows, [i](const MetricRow& row) {
+      return !row.values[i].isValid() || row.values[i].toDouble() == 100;
+    });
+    columns[i].is_minor = is_minor(columns[i].key, is_whole);
+  }
+}
+
 }  // namespace
 
 MetricController::MetricController(const Workbench& bench, MetricTable* table,
@@ -124,26 +140,6 @@ void MetricController::update(Parts parts) {
   }
 }
 
-namespace {
-
-// What the narrow table says otherwise, or what is so in nearly every result, is left to its menu.
-void hide_minor(std::vector<MetricColumn>& columns, const std::vector<MetricRow>& rows) {
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    MetricColumn& column = columns[i];
-    const auto is_whole = [i](const MetricRow& row) {
-      return !row.values[i].isValid() || row.values[i].toDouble() == 100;
-    };
-    const auto is_one_of = [&column](std::initializer_list<const char*> names) {
-      return std::ranges::any_of(names,
-                                 [&](const char* name) { return column.key.endsWith(name); });
-    };
-    column.is_minor = is_one_of({".runtime_log", ".mse_100_inset15", ".q_25_100"}) ||
-                      (is_one_of({".density"}) && std::ranges::all_of(rows, is_whole));
-  }
-}
-
-}  // namespace
-
 void MetricController::fillTable() {
   const auto& scene = session_.scene();
   if (!scene || (!scene->truth->has_disparity() && !scene->truth->has_layers())) {
@@ -176,7 +172,7 @@ void MetricController::fillTable() {
       rows.back().values.emplace_back(cell);
     }
   }
-  hide_minor(columns, rows);
+  mark_minor(columns, rows);
   table_->setTable(columns, rows);
 }
 

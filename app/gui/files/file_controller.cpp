@@ -360,7 +360,7 @@ void FileController::openOwner(const QString& path, const ResultOwner& owner,
   const auto known = std::ranges::find_if(
       scenes, [&](const OpenScene* each) { return is_same_input(each->input, owner.input); });
   const std::string input = known == scenes.end() ? owner.input : (*known)->input;
-  const auto go_on = [this, path, rest, failures, owner] {
+  const auto add = [this, path, owner] {
     if (owner.is_stated) {
       bench_.results.open(path);
     } else {
@@ -369,12 +369,8 @@ void FileController::openOwner(const QString& path, const ResultOwner& owner,
                               if (bench_.session.scene()) bench_.results.open(path);
                             });
     }
-    openAll(rest, failures);
   };
-  bench_.opener.open(QString::fromStdString(input), go_on,
-                     [this, rest, failures](const QString& failure) {
-                       openAll(rest, QStringList(failures) << failure);
-                     });
+  openFirst(QString::fromStdString(input), rest, failures, add);
 }
 
 // Opens one after the other, since each replaces the one being opened; results last, since they
@@ -398,12 +394,15 @@ void FileController::openAll(QStringList paths, const QStringList& failures) {
 }
 
 void FileController::openFirst(const QString& path, const QStringList& rest,
-                               const QStringList& failures) {
+                               const QStringList& failures, const std::function<void()>& then) {
   const auto go_on = [this, rest, failures](const QString& failure) {
     openAll(rest, failure.isEmpty() ? failures : QStringList(failures) << failure);
   };
-  bench_.opener.open(
-      path, [go_on] { go_on({}); }, go_on);
+  const auto opened = [go_on, then] {
+    if (then) then();
+    go_on({});
+  };
+  bench_.opener.open(path, opened, go_on);
 }
 
 void FileController::fillRecentMenu() {

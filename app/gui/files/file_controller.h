@@ -8,6 +8,8 @@
 #include <QString>
 #include <QStringList>
 
+#include <functional>
+
 class QMenu;
 
 namespace episcope {
@@ -45,7 +47,8 @@ class FileController : public QObject {
   void openOwner(const QString& path, const ResultOwner& owner, const QStringList& rest = {},
                  const QStringList& failures = {});
   void openAll(QStringList paths, const QStringList& failures);
-  void openFirst(const QString& path, const QStringList& rest, const QStringList& failures);
+  void openFirst(const QString& path, const QStringList& rest, const QStringList& failures,
+                 const std::function<void()>& then = {});
   void remember(const QString& input);
   void fillRecentMenu();
   void showInvitation();

@@ -272,6 +272,12 @@ void scale_float_samples(LightField::Samples& samples, ConventionReport& report)
       fmt::format(finding_text("samples.divided"), std::lround(largest), divisor));
 }
 
+ViewStack<std::uint8_t> all_valid(GridShape grid, int height, int width) {
+  ViewStack<std::uint8_t> valid(grid, height, width);
+  std::fill_n(valid.data(), valid.size(), std::uint8_t{1});
+  return valid;
+}
+
 void drop_nonfinite_samples(LightField::Samples& samples, ViewStack<std::uint8_t>& valid,
                             ConventionReport& report) {
   ViewStack<float>* stack = floats_of(samples);
@@ -281,10 +287,7 @@ void drop_nonfinite_samples(LightField::Samples& samples, ViewStack<std::uint8_t
   for (std::size_t i = 0; i < stack->size(); ++i) {
     float& sample = stack->data()[i];
     if (std::isfinite(sample)) continue;
-    if (valid.empty()) {
-      valid = ViewStack<std::uint8_t>(stack->grid(), stack->height(), stack->width());
-      std::fill_n(valid.data(), valid.size(), std::uint8_t{1});
-    }
+    if (valid.empty()) valid = all_valid(stack->grid(), stack->height(), stack->width());
     sample = 0;
     valid.data()[i / channels] = 0;
     ++odd;

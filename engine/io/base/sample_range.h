@@ -38,6 +38,9 @@ void settle_range(LightField::Samples& samples, const std::string& levels,
 /// million samples are looked at. Integers stay as they are.
 void scale_float_samples(LightField::Samples& samples, ConventionReport& report);
 
+/// A mask of pixels, all of them valid (1).
+[[nodiscard]] ViewStack<std::uint8_t> all_valid(GridShape grid, int height, int width);
+
 /// Sets NaN and infinite samples to 0, marks their pixels as invalid (`valid`: 0 = invalid, empty =
 /// all are valid) and tells `report` how many. To be called after the check of the order of views,
 /// which bridges such samples.

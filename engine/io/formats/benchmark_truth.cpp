@@ -278,8 +278,7 @@ DisparityField read_stored_center(const fs::path& folder, const SidecarViews& vi
   }
   const HighResFiles high_res = find_high_res_files(folder);
   if (!high_res.disparity.empty()) {
-    notes.report.units =
-        "disparity as stored in gt_disp_highres.pfm, in the middle of each pixel";
+    notes.report.units = "disparity as stored in gt_disp_highres.pfm, in the middle of each pixel";
     DisparityField field = read_reduced(high_res, views, notes);
     if (!field.empty()) return field;
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/models/array_samples.h"
 
+#include "engine/io/base/sample_range.h"
 #include "engine/io/models/load_views.h"
 
 #include <cmath>
@@ -141,10 +142,7 @@ ArraySamples read_as(const ArrayInput& array, const ArrayLayout& layout, const P
   require_view_memory(array.path(), static_cast<double>(element_count(array.shape())) * sizeof(T));
   ViewStack<T> stack(layout.grid(), layout.height(), layout.width(), static_cast<int>(channels));
   ViewStack<std::uint8_t> valid;
-  if (stored == 4) {
-    valid = ViewStack<std::uint8_t>(layout.grid(), layout.height(), layout.width());
-    std::fill_n(valid.data(), valid.size(), std::uint8_t{1});
-  }
+  if (stored == 4) valid = all_valid(layout.grid(), layout.height(), layout.width());
   const bool views_are_fastest = layout.views_are_fastest();
   for_each_block<T>(array, layout, progress, [&](const T* samples, const BlockAxes& axes) {
     const std::size_t first = axes.start[4];

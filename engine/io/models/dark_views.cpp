@@ -5,6 +5,7 @@
 #include "engine/core/memory.h"
 #include "engine/core/numbers.h"
 #include "engine/core/parallel.h"
+#include "engine/io/base/sample_range.h"
 #include "engine/io/models/open_options.h"
 
 #include <fmt/format.h>
@@ -337,10 +338,7 @@ std::string mark_empty_pixels(const ViewBrightness& brightness, int height, int 
     if (has_empty_cells(brightness, grid.view_at(i))) views.push_back(grid.view_at(i));
   }
   if (views.empty()) return {};
-  if (valid.empty()) {
-    valid = ViewStack<std::uint8_t>(grid, height, width);
-    std::fill_n(valid.data(), valid.size(), std::uint8_t{1});
-  }
+  if (valid.empty()) valid = all_valid(grid, height, width);
   std::vector<long long> marked(views.size());
   parallel_for(static_cast<int>(views.size()), progress, [&](int i) {
     const auto index = static_cast<std::size_t>(i);
@@ -431,10 +429,7 @@ std::string mark(const ViewStack<T>& views, ViewStack<std::uint8_t>& valid,
   const long long total = std::accumulate(dark.begin(), dark.end(), 0LL);
   const auto all = static_cast<double>(wedges.size()) * grid.count();
   if (static_cast<double>(total) < kShared * all) return {};
-  if (valid.empty()) {
-    valid = ViewStack<std::uint8_t>(grid, views.height(), views.width());
-    std::fill_n(valid.data(), valid.size(), std::uint8_t{1});
-  }
+  if (valid.empty()) valid = all_valid(grid, views.height(), views.width());
   parallel_for(grid.count(), progress, [&](int i) {
     const ViewIndex view = grid.view_at(i);
     for (const PixelIndex at : wedges) {

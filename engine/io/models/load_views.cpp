@@ -7,6 +7,7 @@
 #include "engine/core/parallel.h"
 #include "engine/core/text.h"
 #include "engine/io/base/image_header.h"
+#include "engine/io/base/sample_range.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -223,8 +224,7 @@ std::vector<int> references_in(const UsableViews& usable, GridShape all,
 ViewStack<std::uint8_t> joined_seen(const std::vector<Image<std::uint8_t>>& seen, GridShape grid,
                                     ImageSize size) {
   if (std::ranges::all_of(seen, [](const auto& one) { return one.empty(); })) return {};
-  ViewStack<std::uint8_t> valid(grid, size.height, size.width);
-  std::fill_n(valid.data(), valid.size(), std::uint8_t{1});
+  ViewStack<std::uint8_t> valid = all_valid(grid, size.height, size.width);
   for (std::size_t i = 0; i < seen.size(); ++i) {
     if (ImageSize{seen[i].height(), seen[i].width()} != size) continue;
     std::ranges::copy(seen[i], valid.view(grid.view_at(static_cast<int>(i))).data);

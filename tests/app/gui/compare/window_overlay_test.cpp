@@ -319,12 +319,13 @@ void OverlayTest::compareTab_showsTheMainMetricsWithoutScrolling() {
                                table->horizontalHeaderItem(2)->text() == "2016\nMSE×100",
                            kPatience);
 
-  const QStringList wanted = {"Result",        "2013\nMSE×100", "2016\nMSE×100",
-                              "2016\nbad .07", "2016\nbad .03", "2016\nbad .01"};
+  const QStringList wanted = {"Result",        "2013\nMSE×100", "2016\nMSE×100", "2016\nbad .07",
+                              "2016\nbad .03", "2016\nbad .01", "2016\nQ25"};
   for (int column = 0; column < wanted.size(); ++column) {
     QCOMPARE(table->horizontalHeaderItem(column)->text(), wanted[column]);
     QVERIFY(!table->horizontalHeaderItem(column)->toolTip().isEmpty());
   }
+  QVERIFY(table->isColumnHidden(6));  // until it is chosen
   const int end = table->columnViewportPosition(5) + table->columnWidth(5);
   QVERIFY2(end <= table->viewport()->width(),
            qPrintable(QString("%1 > %2").arg(end).arg(table->viewport()->width())));

@@ -15,7 +15,7 @@ namespace {
 
 // Layers round sums of up to 1728 products; see net_layers_test.
 constexpr double kTolerance = 2e-4;
-constexpr int kBand = 4;
+constexpr int kBand = 4;  // Rows: fewer than any tensor has.
 
 struct PlainTensor {
   NetShape shape;
