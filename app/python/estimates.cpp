@@ -13,6 +13,7 @@
 #include "engine/disparity/registry.h"
 #include "engine/io/base/json.h"
 #include "engine/io/models/external_result.h"
+#include "engine/io/models/map_reading.h"
 #include "engine/io/models/result_file.h"
 
 #include <pybind11/stl.h>
@@ -96,9 +97,14 @@ void save_estimate(const FoundEstimate& found, const py::object& given_path, con
   }
   run_job(py::none(), 0, [&](const Progress& job) {
     if (*form == MapForm::Result) {
-      check_result_output(
-          path, {estimate.method, estimate.parameters, found.of.input, estimate.reading.options},
-          overwrite, kByArgument);
+      check_result_output(path,
+                          {estimate.method,
+                           estimate.parameters,
+                           found.of.input,
+                           estimate.reading.options,
+                           {},
+                           estimate.field.disparity.grid().count() == 1},
+                          overwrite, kByArgument);
       return save_result(path, estimate, found.of.input, job);
     }
     const auto write = [&](const std::filesystem::path& file) {
@@ -109,15 +115,37 @@ void save_estimate(const FoundEstimate& found, const py::object& given_path, con
   });
 }
 
-/// What is judged: a result, the name of its file, or an array of maps.
-EstimatePtr judged_estimate(const py::object& map, const LightField& lf) {
-  if (py::isinstance<FoundEstimate>(map)) return py::cast<const FoundEstimate&>(map).estimate;
+/// Refuses maps of another program that lie on their side.
+void require_upright(const DisparityField& field, const LightField& lf,
+                     const io::MapReading& reading) {
+  const int height = field.disparity.height(), width = field.disparity.width();
+  const bool lies = height == lf.width() && width == lf.height() && height != width;
+  if (!lies || reading.is_transposed) return;
+  throw InvalidInput(
+      "rows and columns of the maps are exchanged for those of the views; transpose them, or give "
+      "map_transpose=True");
+}
+
+/// What is judged: a result, the name of its file, or an array of maps, read so.
+EstimatePtr judged_estimate(const py::object& map, const LightField& lf,
+                            const io::MapReading& reading) {
+  if (py::isinstance<FoundEstimate>(map)) {
+    const EstimatePtr& found = py::cast<const FoundEstimate&>(map).estimate;
+    if (reading == io::MapReading{}) return found;
+    auto changed = std::make_shared<Estimate>();
+    changed->set_provenance(found->provenance());
+    changed->field = found->field.clone();
+    changed->layered.foreground = found->layered.foreground.clone();
+    io::apply_reading(reading, &lf, *changed);  // refuses one in two layers
+    return changed;
+  }
   if (names_path(map)) {
-    return std::make_shared<const Estimate>(read_result_of(lf, path_from(map)));
+    return std::make_shared<const Estimate>(read_result_of(lf, path_from(map), reading));
   }
   DisparityField field;
   field.disparity = maps_from(numbers_from<float>(map, "the maps"), lf.grid(), "the maps");
-  return std::make_shared<const Estimate>(result_from_maps(lf, std::move(field), "array"));
+  require_upright(field, lf, reading);
+  return std::make_shared<const Estimate>(result_from_maps(lf, std::move(field), "array", reading));
 }
 
 py::dict scores_of(const Estimate& estimate, const Evaluation& evaluation, Protocol protocol,
@@ -140,9 +168,9 @@ py::dict scores_of(const Estimate& estimate, const Evaluation& evaluation, Proto
 }
 
 py::dict score_scene(const py::object& map, const OpenedScene& opened, EvaluationOptions options,
-                     const py::object& view) {
+                     const py::object& view, const io::MapReading& reading) {
   const LightField& lf = opened.light_field();
-  const EstimatePtr estimate = judged_estimate(map, lf);
+  const EstimatePtr estimate = judged_estimate(map, lf, reading);
   const ViewIndex at = view_from(view, lf.grid()).value_or(judged_view(*opened.scene));
   std::optional<io::BetterReading> better;
   Evaluation evaluation = result_of_job(py::none(), 0, [&](const Progress& job) {
@@ -185,7 +213,7 @@ GridShape grid_of_maps(const py::object& maps) {
 
 /// Against an array: pixel by pixel, with nothing known of the light field.
 py::dict score_array(const py::object& judged, const py::object& truth,
-                     const EvaluationOptions& options) {
+                     const EvaluationOptions& options, const io::MapReading& reading) {
   const py::object map = py::isinstance<FoundEstimate>(judged) ? judged.attr("disparity") : judged;
   const GridShape of_truth = grid_of_maps(truth);
   const GridShape grid = of_truth.count() > 1 ? of_truth : grid_of_maps(map);
@@ -193,6 +221,7 @@ py::dict score_array(const py::object& judged, const py::object& truth,
   Estimate estimate;
   estimate.field = field_from(map, grid, "the maps");
   estimate.method = "array";
+  io::apply_reading(reading, nullptr, estimate);
   const ViewIndex center = grid.center();
   const DisparityView one = estimate.field.view(center);
   Evaluation evaluation = evaluate(one, known.view(center), {}, options);
@@ -227,15 +256,19 @@ OpenedScene scene_at(const std::string& input, const py::object& map) {
 }
 
 py::dict score(const py::object& map, const py::object& truth, const std::string& protocol,
-               const std::string& invalid, const py::object& view) {
+               const std::string& invalid, const py::object& view, const py::kwargs& given) {
   const EvaluationOptions options{choice_named<Protocol>("protocol", protocol),
                                   choice_named<InvalidEstimates>("invalid", invalid),
                                   {}};
+  const auto schema = io::map_schema();
+  const io::MapReading reading = schema.parse(parameters_from(given, schema.descriptions()));
   if (py::isinstance<OpenedScene>(truth)) {
-    return score_scene(map, py::cast<const OpenedScene&>(truth), options, view);
+    return score_scene(map, py::cast<const OpenedScene&>(truth), options, view, reading);
   }
-  if (names_path(truth)) return score_scene(map, scene_at(path_from(truth), map), options, view);
-  if (view.is_none()) return score_array(map, truth, options);
+  if (names_path(truth)) {
+    return score_scene(map, scene_at(path_from(truth), map), options, view, reading);
+  }
+  if (view.is_none()) return score_array(map, truth, options, reading);
   throw InvalidInput("view chooses a view of a light field; of arrays, give the maps of the view");
 }
 
@@ -333,7 +366,7 @@ void add_score(py::module_& module) {
   module.def("score", score, py::arg("map"), py::arg("truth"), py::kw_only(),
              py::arg("protocol") = "vmv2013", py::arg("invalid") = "bad",
              py::arg("view") = py::none(),
-             R"(score(map, truth, *, protocol='vmv2013', invalid='bad', view=None)
+             R"(score(map, truth, *, protocol='vmv2013', invalid='bad', view=None, **reading)
 --
 
 Compares disparity with the truth; a dict with the keys of 'episcope-cli evaluate --json', such as
@@ -342,7 +375,9 @@ mse_100 and density.
 map: a Result, the path of a result, or an array in px per view step, [y, x] of the center view or
 [v, u, y, x] of all, NaN where there is no value. truth: a LightField, the path of one, or an array,
 [y, x] or [v, u, y, x]. protocol: 'vmv2013' or 'benchmark2016'. invalid: how missing values count, 'bad' or
-'compatible'. view: (v, u), by default the center.
+'compatible'. view: (v, u), by default the center. reading: how maps are to be read, as the options
+--map-… of 'episcope-cli evaluate': map_transpose, map_flip, map_scale, map_values, map_border,
+map_down, map_right, map_resize, map_crop, map_missing.
 Raises InvalidInput where sizes differ or there is no truth.)");
 }
 

@@ -425,6 +425,12 @@ OrderedArray<T> numbers_from(const py::object& array, const std::string& what) {
   if (given && kinds.find(given.dtype().kind()) != std::string::npos) {
     return OrderedArray<T>(given);
   }
+  if (is_whole && given && given.dtype().kind() == 'f') {  // as MATLAB stores whole numbers
+    const auto numpy = py::module_::import("numpy");
+    if (py::cast<bool>(numpy.attr("array_equal")(given, numpy.attr("rint")(given)))) {
+      return OrderedArray<T>(py::array(given.attr("astype")("int32")));
+    }
+  }
   const bool is_array = py::isinstance<py::array>(array);
   const py::object found = is_array ? array.attr("dtype") : py::type::of(array).attr("__name__");
   throw InvalidInput("an array of " + numbers + " is expected for " + what + ", not " +

@@ -129,13 +129,22 @@ struct StoredRun {
   std::string source;
   Reading reading;
   std::uint64_t sources_hash = 0;
+  bool has_several_views = false;  ///< Of a result.
 };
+
+bool holds_several_views(const io::Hdf5Input& file) {
+  return std::ranges::any_of(file.datasets(), [](const io::Hdf5Dataset& dataset) {
+    return dataset.name.starts_with(io::kResultGroup) && dataset.shape.size() == 4 &&
+           dataset.shape[0] * dataset.shape[1] > 1;
+  });
+}
 
 StoredRun stored_run(const fs::path& path, const std::string& group) {
   const io::Hdf5Input file(path);
   const auto text = [&](const char* name) { return file.text(group, name).value_or(""); };
   return {text("method"), io::parameters_from_json(text("parameters")), text("source"),
-          io::reading_in(file, group), hash_from_digits(text(io::kSourcesHash))};
+          io::reading_in(file, group), hash_from_digits(text(io::kSourcesHash)),
+          holds_several_views(file)};
 }
 
 /// How a file differs from what would replace it: "a result of epi_l"; empty if it does not.
@@ -148,6 +157,7 @@ std::string difference_of(const StoredRun& stored, const fs::path& path, const I
     return "of another light field, " + shown_source(stored.source, path);
   }
   if (!is_same_reading(stored.reading, run.reading)) return "of another reading of its views";
+  if (run.is_of_one_view && stored.has_several_views) return "of several views";
   if (run.sources_hash && stored.sources_hash == 0) return "that do not tell their strokes";
   if (run.sources_hash && stored.sources_hash != *run.sources_hash) {
     return "of other strokes, disparity or probabilities";

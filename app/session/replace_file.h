@@ -31,10 +31,11 @@ struct IntendedRun {
   ParameterSet reading;     ///< Reading options that are set (io::given_options).
   /// Of labels (LabelSources); none while it is not known. A file that has none is of others.
   std::optional<std::uint64_t> sources_hash = {};
+  bool is_of_one_view = false;  ///< Of a result, which must not replace one of several views.
 };
 
 /// Refuses to replace anything but a result file, and one of another method, other parameters,
-/// another light field or another reading of it unless that is asked for. Parameters that the file
+/// another light field, another reading of it or of more views unless that is asked for. Parameters that the file
 /// does not know count as their default. Throws IoError, which says `how` to ask for it.
 void check_result_output(const std::filesystem::path& path, const IntendedRun& run,
                          Overwrite overwrite, const std::string& how = kByOption);

@@ -36,8 +36,10 @@ namespace episcope {
 
 /// Maps of another program as a result of this light field, as if they were read from a file:
 /// values that are not finite become invalid, padding is cut off, and a bare border is not judged.
+/// Throws InvalidInput as `io::apply_reading`.
 [[nodiscard]] Estimate result_from_maps(const LightField& light_field, DisparityField maps,
-                                        const std::string& method);
+                                        const std::string& method,
+                                        const io::MapReading& reading = {});
 
 /// Reads a result without its light field: a result file knows the places of its views; a map from
 /// elsewhere becomes view 0,0. Throws IoError, InvalidInput.

@@ -4,10 +4,10 @@
 #include "app/session/result_files.h"
 #include "app/session/scene_summary.h"
 #include "engine/core/error.h"
+#include "engine/core/finding.h"
 #include "engine/core/hash.h"
 #include "engine/core/memory.h"
 #include "engine/core/version.h"
-#include "engine/disparity/disparity_range.h"
 #include "engine/disparity/registry.h"
 #include "engine/io/base/json.h"
 #include "engine/io/models/result_draft.h"
@@ -17,16 +17,24 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <ctime>
+#include <string_view>
 #include <utility>
 
 namespace episcope {
 namespace {
 
-std::string range_warning(const LightField& light_field, const Estimate& estimate) {
-  const std::string note = limited_range_note(light_field, estimate.range);
-  if (std::ranges::count(estimate.notes, note) == 0) return {};
-  return note;
+// Codes of notes that doubt the range.
+constexpr std::array<std::string_view, 3> kRangeDoubts{"range.limited", "range.elsewhere",
+                                                       "range.nothing"};
+
+std::string range_warning(const Estimate& estimate) {
+  const auto doubted = std::ranges::find_if(estimate.notes, [](const std::string& note) {
+    const auto finding = finding_of(note);
+    return finding && std::ranges::count(kRangeDoubts, finding->code) > 0;
+  });
+  return doubted == estimate.notes.end() ? std::string() : *doubted;
 }
 
 void add_date(Provenance& estimate) {
@@ -52,7 +60,7 @@ FinishedEstimate run_estimator(const Scene& scene, const Estimator& estimator,
   }
   progress.check();
   const Interval range = display_range(*estimate);
-  std::string warning = range_warning(light_field, *estimate);
+  std::string warning = range_warning(*estimate);
   progress.report(1);
   return {std::move(estimate), range, std::move(warning)};
 }

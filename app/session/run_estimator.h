@@ -24,7 +24,7 @@ struct EstimateRequest {
 struct FinishedEstimate {
   EstimatePtr estimate;    ///< With its provenance, the hash of the light field included.
   Interval display_range;  ///< Disparities that 98 % of the pixels of one view lie in.
-  std::string warning{};   ///< The note that the range found may be too narrow; or empty.
+  std::string warning{};   ///< The note that doubts the range; or empty.
 };
 
 /// Note of an estimate that was taken before the method was done.

@@ -135,10 +135,13 @@ struct KeptLabels {
   std::uint64_t strokes = 0;     ///< `hash_of` the strokes that it was learnt from.
   std::filesystem::path file{};  ///< That keeps it for the project; empty = none yet.
   bool is_saved = false;         ///< A file of the user's holds it.
+  bool is_imported = false;      ///< Nothing that was painted here gives it again.
 
   [[nodiscard]] bool empty() const { return !labeling && file.empty(); }
   /// Whether all views are in memory, which take long to segment.
   [[nodiscard]] bool covers_many() const { return labeling && labeling->labels.grid().count() > 1; }
+  /// Whether painting does not give them again in a moment.
+  [[nodiscard]] bool is_worth_keeping() const { return covers_many() || is_imported; }
 };
 
 /// Hash of the pixels and labels of strokes.

@@ -54,6 +54,14 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
     {"cap", "matching cost capped at ε = {:.3f}"},
     // Ranges of disparity.
     {"range.found", "disparity range {:.2f} … {:.2f} px, found from the images"},
+    {"range.elsewhere",
+     "Nothing matches at disparities of {:.2f} … {:.2f} px: the images show {:.2f} … {:.2f} px; "
+     "the range auto searches those",
+     "Nothing matches in the range searched."},
+    {"range.nothing",
+     "Nothing matches between the views: the disparities, looked for within {:.2f} … {:.2f} px, "
+     "are guesses",
+     "Nothing matches between the views."},
     {"range.limited",
      "the disparity range found, {:.2f} … {:.2f} px, ends where the search does, at ±{:.2f} px: "
      "the "
@@ -171,7 +179,7 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
      "The check favors another order of views."},
     {"order.unexpected",
      "The order of views is \"{}\" and not \"{}\", which was expected because {}.",
-     "The views were reordered: %1."},
+     "Unexpected order of views: %1."},
     {"order.line",
      "Points move across the line of views as well: by {:.2f} px between views {} apart, beside "
      "{:.2f} px along it. This may be a film of a camera that zooms or turns, or views that are "
@@ -276,7 +284,8 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
     {"map.damaged", "{} of {} {} are left out. {}.", "%1 of %2 maps are left out."},
     {"map.border",
      "A border of {} px has one value only and counts as padding; {}×{} px are used."},
-    {"map.middle", "The maps of {}×{} px are taken for the middle of {}×{} px."},
+    {"map.middle",
+     "The maps of {}×{} px are taken for the middle of {}×{} px, and judged there alone."},
     {"map.padded", "The maps of {}×{} px are padded {} with a constant; {}×{} px are used."},
     {"units.warp", "mean grey error of neighboring views after warping {}, unwarped {}"},
     {"units.warp_stored",

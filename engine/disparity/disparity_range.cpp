@@ -373,6 +373,9 @@ double farthest_found(const LightField& lf) {
 std::string limited_range_note(const LightField& lf, Interval range) {
   constexpr double near = 0.25;  // the width in which pixels are counted, and a little
   const double limit = farthest_found(lf);
+  if (range == kNothingSeen) {
+    return fmt::format(finding_text("range.nothing"), range.min, range.max);
+  }
   if (range.min > near - limit && range.max < limit - near) return {};
   return fmt::format(finding_text("range.limited"), range.min, range.max, limit);
 }
@@ -383,7 +386,7 @@ Interval find_disparity_range(const LightField& lf, const Progress& progress) {
   std::optional<Interval> seen;
   if (histogram.total() >= kFewPixels) seen = histogram.ends(kOrientationTail);
   const std::optional<Interval> certain = certain_range(lf, limit, seen, progress.part(0.6, 0.9));
-  if (!certain) return seen.value_or(Interval{-1, 1});
+  if (!certain) return seen.value_or(kNothingSeen);
   const double length = certain->length();
   const Interval all{-limit, limit};
   const Interval least =
@@ -395,6 +398,13 @@ Interval find_disparity_range(const LightField& lf, const Progress& progress) {
     most = widened(most, confirmed_range(lf, searched, histogram, progress.part(0.9, 1)));
   }
   return clipped(united(least, *seen), clipped(most, all));
+}
+
+std::string foreign_range_note(const LightField& lf, Interval given) {
+  const Interval seen = search_range(lf, IntervalOrAuto::found(), Progress());
+  const bool meets = given.min < seen.max && seen.min < given.max;
+  if (meets || seen == kNothingSeen) return {};
+  return fmt::format(finding_text("range.elsewhere"), given.min, given.max, seen.min, seen.max);
 }
 
 RangeSource range_source(const LightField& lf, const IntervalOrAuto& wanted) {

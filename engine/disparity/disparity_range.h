@@ -66,17 +66,24 @@ enum class RangeSource { Given, Promised, Found };
 /// "disparity range -1.65 … 1.50 px, found from the images".
 [[nodiscard]] std::string found_range_note(Interval range);
 
+/// The range "found" where nothing matches.
+inline constexpr Interval kNothingSeen{-1, 1};
+
 /// The disparity beyond which nothing is looked for when a range is found, px per view step.
 [[nodiscard]] double farthest_found(const LightField& light_field);
 
 /// A sentence for a range found that ends at `farthest_found`, where nothing says that the scene
-/// ends too; else empty.
+/// ends too, and for `kNothingSeen`; else empty.
 [[nodiscard]] std::string limited_range_note(const LightField& light_field, Interval range);
+
+/// A sentence for a given range that holds nothing of what would be found; else empty. Looks for
+/// that unless the range was found before. Throws Cancelled.
+[[nodiscard]] std::string foreign_range_note(const LightField& light_field, Interval given);
 
 /// Help of a parameter that is a range to search.
 inline constexpr const char* kRangeHelp =
-    "Range of disparities to search; auto takes it from the files or finds it from the images, "
-    "found finds it from the images whatever the files say";
+    "Range of disparities to search; automatic (auto): from the files, else found from the images; "
+    "found: from the images, whatever the files say";
 
 /// The disparity range that an estimator should search, px per view step: `wanted` if given, else
 /// what the files promise (LightFieldInfo::disparity_range) unless it is to be found, else found
@@ -93,7 +100,7 @@ inline constexpr const char* kRangeHelp =
 /// columns of the center view's EPIs, sheared in whole pixels over ±16 px or a sixth of the image
 /// (OrientationHistogram). It widens the range by 0.45 px at most, and farther only where views of
 /// half the size confirm it by matching distinctly (label_support). A light field without texture
-/// gives [−1, 1]. Throws Cancelled.
+/// gives `kNothingSeen`. Throws Cancelled.
 [[nodiscard]] Interval find_disparity_range(const LightField& light_field,
                                             const Progress& progress);
 

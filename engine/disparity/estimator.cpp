@@ -124,15 +124,19 @@ Device chosen_device(Device device, const EstimatorInfo& info) {
 
 namespace {
 
-// For a parameter `range` that asked to find it, and for a range found that may be too narrow.
+// For a parameter `range` that asked to find it, for a range found that may be too narrow, and for
+// one given that holds nothing.
 void note_range(const LightField& light_field, Provenance& estimate) {
   for (const auto& [key, value] : estimate.parameters) {
     const auto* const wanted = std::get_if<IntervalOrAuto>(&value);
     if (key != "range" || !wanted) continue;
     if (wanted->is_found) estimate.notes.push_back(found_range_note(estimate.range));
-    if (range_source(light_field, *wanted) != RangeSource::Found) continue;
-    const std::string limited = limited_range_note(light_field, estimate.range);
-    if (!limited.empty()) estimate.notes.push_back(limited);
+    const RangeSource source = range_source(light_field, *wanted);
+    if (source == RangeSource::Promised) continue;
+    std::string doubt = source == RangeSource::Given
+                            ? foreign_range_note(light_field, **wanted)
+                            : limited_range_note(light_field, estimate.range);
+    if (!doubt.empty()) estimate.notes.push_back(std::move(doubt));
   }
 }
 

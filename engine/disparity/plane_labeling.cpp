@@ -7,6 +7,7 @@
 #include "engine/cuda/tgv_l2.h"
 #include "engine/cuda/tv_l2.h"
 #include "engine/solvers/message_labeling.h"
+#include "engine/solvers/pair_limits.h"
 #include "engine/solvers/tv_l2.h"
 
 #include <fmt/format.h>
@@ -92,7 +93,7 @@ std::string label_with_jumps(const PlaneRefinementData& data, const PairWeights&
     std::copy_n(placed.disparity.row(y), disparity.width, disparity.row(y));
   }
   return fmt::format("labeling: energy {:.6g}, gap {:.1e} after {} iterations", result.energy,
-                     (result.energy - result.bound) / result.energy, result.iterations);
+                     labeling_gap(result.energy, result.bound), result.iterations);
 }
 
 namespace {

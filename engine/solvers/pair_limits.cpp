@@ -52,7 +52,8 @@ void check_boundaries(ImageView<const float> g, double smoothness, int height, i
 }
 
 double labeling_gap(double energy, double bound) {
-  return energy == bound ? 0 : (energy - bound) / std::abs(energy);
+  if (energy == bound) return 0;
+  return energy == 0 ? 1 : (energy - bound) / std::abs(energy);
 }
 
 std::string labeling_gap_text(double gap) {

@@ -22,7 +22,7 @@ import kernels
 import network
 import views
 
-VERSION = 5
+VERSION = 6
 LARGE = 10000    # weights of a layer that are kept in 8 bits, at least
 CONV, NORM = (nn.Conv2d, nn.Conv3d), (nn.BatchNorm2d, nn.BatchNorm3d)
 
@@ -92,7 +92,8 @@ def stored(name, weight):
     if weight.size < LARGE:
         return {name + '.weight': weight.astype(np.float16)}
     column = (-1, *[1] * (weight.ndim - 1))
-    scale = (np.abs(weight).reshape(len(weight), -1).max(1).clip(1e-6) / 127).astype(np.float16)
+    scale = (np.abs(weight).reshape(len(weight), -1).max(1) / 127).astype(np.float16)
+    scale[scale == 0] = 1  # of an output that has died
     levels = np.rint(weight / scale.astype(np.float32).reshape(column)).clip(-127, 127)
     return {name + '.weight': levels.astype(np.int8), name + '.scale': scale}
 

@@ -5,7 +5,7 @@
     torchrun --standalone --nproc-per-node 2 train.py …
 
 --warm: starts from released weights. --averaged: starts from the averaged weights. --still: holds BatchNorm
-still. --end: the rate falls linearly to this value. With torchrun each card draws scenes of its own, and
+still. --revive: outputs that never learned begin anew. --end: the rate falls linearly to this value. With torchrun each card draws scenes of its own, and
 the cards average their gradients.
 """
 import argparse
@@ -28,6 +28,8 @@ import scenes
 
 SHAPES = ((32, 12), (40, 10), (56, 7))  # labels, scenes a batch
 PARTS = ('volume', 'selection', 'refinement')
+# Layers whose outputs may never have learned, and what reads them.
+REVIVED = (('r0.0', 'r0.1'), ('r1.0', 'r1.1'), ('d3.0', 'd3.1.0'), ('d3.1', 'd3.2.0'), ('d3.2', 'u2'))
 RANK, CARDS = (int(os.environ.get(n, d)) for n, d in (('RANK', 0), ('WORLD_SIZE', 1)))
 
 
@@ -38,6 +40,7 @@ def arguments():
     p.add_argument('--out', help='where the checkpoint is written (default: where it was read)')
     p.add_argument('--warm', help='released weights (net.npz) to start from where there is no checkpoint')
     p.add_argument('--still', action='store_true', help='hold BatchNorm still')
+    p.add_argument('--revive', action='store_true', help='begin outputs of REVIVED that never learned anew')
     p.add_argument('--size', type=int, default=96, help='rows and columns of a scene; larger ones are fewer a batch')
     p.add_argument('--times', type=float, default=1., help='scenes a batch, relative to SHAPES')
     p.add_argument('--averaged', action='store_true', help='start from the averaged weights')
@@ -90,6 +93,22 @@ def ranges(d):
     return low - w * (u(.02, .15) + wide * side), low + w * (1 + u(.02, .15) + wide * (1 - side))
 
 
+def revive(weights, seed):
+    """Gives outputs of REVIVED with hardly any weight random ones, and what reads them small ones (a state of the network)."""
+    torch.manual_seed(seed)
+    for name, reader in REVIVED:
+        conv, norm = f'selection.{name}.0.weight', f'selection.{name}.1.'
+        spread = (weights[norm + 'running_var'] + 1e-5).sqrt()
+        size = weights[conv].flatten(1).abs().amax(1) * (weights[norm + 'weight'] / spread).abs()
+        dead = size < .05 * size.topk(8).values.median()
+        weights[conv][dead] = torch.randn_like(weights[conv][dead]) * (2 / weights[conv][0].numel()) ** .5
+        weights[norm + 'weight'][dead] = .3 * spread[dead]
+        weights[norm + 'bias'][dead] = weights[norm + 'running_mean'][dead]
+        read = weights[f'selection.{reader}.weight']
+        read[:, dead] = torch.randn_like(read[:, dead]) * read[:, ~dead].std() * .1
+        print(name, 'begins anew:', int(dead.sum()), 'of', len(dead), flush=True)
+
+
 class Trainer:
     def __init__(self, a):
         self.a, dev = a, 'cuda'
@@ -104,8 +123,11 @@ class Trainer:
             self.done = json.load(open(path('state.json')))
         elif a.warm:
             export.unfold(self.net, a.warm)
+        if a.revive:
+            with torch.no_grad():
+                revive(self.net.state_dict(), a.seed)
         self.ema = copy.deepcopy(self.net).eval().requires_grad_(False)
-        if os.path.exists(path('ema.pt')):
+        if os.path.exists(path('ema.pt')) and not a.revive:
             network.load(self.ema, torch.load(path('ema.pt'), map_location=dev))
         groups = [dict(params=list(getattr(self.net, n).parameters()), name=n) for n in PARTS]
         self.opt = torch.optim.AdamW(groups, a.rate, weight_decay=1e-4, betas=(.9, .99), fused=True)

@@ -2017,6 +2017,10 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <source>%1 holds labels that were out of date: strokes or settings changed since.</source>
         <translation>%1 enthält veraltete Labels: Striche oder Einstellungen haben sich seither geändert.</translation>
     </message>
+    <message>
+        <source>They were read from a file: segment again to export probabilities as well.</source>
+        <translation>Sie wurden aus einer Datei gelesen: Neu segmentieren, um auch Wahrscheinlichkeiten zu exportieren.</translation>
+    </message>
 </context>
 <context>
     <name>episcope::FileController</name>
@@ -2872,10 +2876,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Die Karten von %1×%2 px sind mit einer Konstante aufgefüllt (%3); %4×%5 px werden verwendet.</translation>
     </message>
     <message>
-        <source>The maps of %1×%2 px are taken for the middle of %3×%4 px.</source>
-        <translation>Die Karten von %1×%2 px gelten als Mitte von %3×%4 px.</translation>
-    </message>
-    <message>
         <source>The pictures of the film were turned upright.</source>
         <translation>Die Bilder des Films wurden aufgerichtet.</translation>
     </message>
@@ -2898,10 +2898,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>The views state %1 different orientations (Exif), %2 of %3 orientation %4: all are taken as they are stored; if the camera was turned, turn the pictures before.</source>
         <translation>Die Ansichten nennen %1 verschiedene Orientierungen (Exif), %2 von %3 die Orientierung %4: Alle gelten, wie sie gespeichert sind; war die Kamera gedreht, die Bilder vorher drehen.</translation>
-    </message>
-    <message>
-        <source>The views were reordered: %1.</source>
-        <translation>Die Ansichten wurden umgeordnet: %1.</translation>
     </message>
     <message>
         <source>The views were turned upright.</source>
@@ -3115,6 +3111,30 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <source>view %1 is missing</source>
         <translation>Ansicht %1 fehlt</translation>
     </message>
+    <message>
+        <source>Nothing matches at disparities of %1 … %2 px: the images show %3 … %4 px; the range auto searches those</source>
+        <translation>Bei Disparitäten von %1 … %2 px passt nichts zusammen: Die Bilder zeigen %3 … %4 px; der automatische Bereich sucht dort</translation>
+    </message>
+    <message>
+        <source>Nothing matches between the views.</source>
+        <translation>Zwischen den Ansichten passt nichts zusammen.</translation>
+    </message>
+    <message>
+        <source>Nothing matches between the views: the disparities, looked for within %1 … %2 px, are guesses</source>
+        <translation>Zwischen den Ansichten passt nichts zusammen: Die Disparitäten, gesucht in %1 … %2 px, sind geraten</translation>
+    </message>
+    <message>
+        <source>Nothing matches in the range searched.</source>
+        <translation>Im durchsuchten Bereich passt nichts zusammen.</translation>
+    </message>
+    <message>
+        <source>The maps of %1×%2 px are taken for the middle of %3×%4 px, and judged there alone.</source>
+        <translation>Die Karten von %1×%2 px gelten als Mitte von %3×%4 px und werden nur dort bewertet.</translation>
+    </message>
+    <message>
+        <source>Unexpected order of views: %1.</source>
+        <translation>Unerwartete Reihenfolge der Ansichten: %1.</translation>
+    </message>
 </context>
 <context>
     <name>episcope::FocusController</name>
@@ -3299,6 +3319,10 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
             <numerusform>%n Ansicht mit Labels. Ansicht %1: %2</numerusform>
             <numerusform>%n Ansichten mit Labels. Ansicht %1: %2</numerusform>
         </translation>
+    </message>
+    <message>
+        <source>The labels shown now are replaced, and undo does not bring them back: export them first to keep them.</source>
+        <translation>Die jetzt gezeigten Labels werden ersetzt, und Rückgängig bringt sie nicht zurück: Zum Behalten vorher exportieren.</translation>
     </message>
 </context>
 <context>
@@ -5903,6 +5927,10 @@ s</translation>
         <source>Work is running</source>
         <translation>Es wird noch gerechnet</translation>
     </message>
+    <message>
+        <source>imported labels</source>
+        <translation>importierte Labels</translation>
+    </message>
 </context>
 <context>
     <name>episcope::QuestionBox</name>
@@ -7148,10 +7176,6 @@ s</translation>
         <translation>Radius des geführten Filters, der die Kosten von Nachbarn ähnlicher Farbe mittelt; 0 = aus</translation>
     </message>
     <message>
-        <source>Range of disparities to search; auto takes it from the files or finds it from the images, found finds it from the images whatever the files say</source>
-        <translation>Abzusuchender Disparitätsbereich; auto nimmt ihn aus den Dateien oder ermittelt ihn aus den Bildern, ermittelt nimmt ihn aus den Bildern, gleich was die Dateien sagen</translation>
-    </message>
-    <message>
         <source>Reduce the confidence of estimates where other views show a different color along the line, or where the texture belongs to a neighboring pixel</source>
         <translation>Verringert die Konfidenz von Schätzungen, wo andere Ansichten entlang der Linie eine andere Farbe zeigen oder wo die Textur zu einem Nachbarpixel gehört</translation>
     </message>
@@ -7714,10 +7738,6 @@ s</translation>
     <message>
         <source>reading the picture</source>
         <translation>Bild wird gelesen</translation>
-    </message>
-    <message>
-        <source>reading truth</source>
-        <translation>Referenz wird gelesen</translation>
     </message>
     <message>
         <source>reading views</source>
@@ -8303,6 +8323,14 @@ s</translation>
         <source>no truth in this folder</source>
         <translation>keine wahren Werte in diesem Ordner</translation>
     </message>
+    <message>
+        <source>Range of disparities to search; automatic (auto): from the files, else found from the images; found: from the images, whatever the files say</source>
+        <translation>Zu durchsuchender Bereich der Disparitäten; automatisch (auto): aus den Dateien, sonst aus den Bildern gefunden; gefunden (found): aus den Bildern, was auch immer die Dateien sagen</translation>
+    </message>
+    <message>
+        <source>reading ground truth</source>
+        <translation>Ground Truth wird gelesen</translation>
+    </message>
 </context>
 <context>
     <name>episcope::ScribbleController</name>
@@ -8519,10 +8547,6 @@ s</translation>
 <context>
     <name>episcope::SessionRecovery</name>
     <message>
-        <source>Episcope ended unexpectedly (%1). What was open can be recovered: light fields: %2, results: %3.</source>
-        <translation>Episcope wurde unerwartet beendet (%1). Das Geöffnete kann wiederhergestellt werden: Lichtfelder: %2, Ergebnisse: %3.</translation>
-    </message>
-    <message>
         <source>Recover</source>
         <translation>Wiederherstellen</translation>
     </message>
@@ -8537,6 +8561,26 @@ s</translation>
     <message>
         <source>This deletes the results that the earlier session kept: %1. Its light fields were: %2.</source>
         <translation>Das löscht die Ergebnisse, die die frühere Sitzung behalten hat: %1. Ihre Lichtfelder waren: %2.</translation>
+    </message>
+    <message>
+        <source>light fields: %1</source>
+        <translation>Lichtfelder: %1</translation>
+    </message>
+    <message>
+        <source>results: %1</source>
+        <translation>Ergebnisse: %1</translation>
+    </message>
+    <message>
+        <source>with scribbles: %1</source>
+        <translation>mit Scribbles: %1</translation>
+    </message>
+    <message>
+        <source>with labels: %1</source>
+        <translation>mit Labels: %1</translation>
+    </message>
+    <message>
+        <source>Episcope ended unexpectedly (%1). What was open can be recovered: %2.</source>
+        <translation>Episcope wurde unerwartet beendet (%1). Was offen war, kann wiederhergestellt werden: %2.</translation>
     </message>
 </context>
 <context>
@@ -8885,10 +8929,6 @@ s</translation>
         <translation>Probiert Werte eines oder zweier Parameter des Verfahrens aus</translation>
     </message>
     <message>
-        <source>%1, other values as in the Estimate tab</source>
-        <translation>%1, andere Werte wie im Reiter Schätzen</translation>
-    </message>
-    <message>
         <source>Choose two different parameters.</source>
         <translation>Zwei verschiedene Parameter wählen.</translation>
     </message>
@@ -8956,6 +8996,10 @@ s</translation>
         <source>Writes the points of the sweep that is shown in the Sweep tab</source>
         <translation>Schreibt die Punkte der Versuchsreihe, die der Reiter Versuchsreihe zeigt</translation>
     </message>
+    <message>
+        <source>%1, other values as in Method</source>
+        <translation>%1, andere Werte wie unter Methode</translation>
+    </message>
 </context>
 <context>
     <name>episcope::SweepPanel</name>
@@ -9020,10 +9064,6 @@ s</translation>
         <translation>Übernimmt die Werte dieses Punkts in das Formular des Reiters Schätzen</translation>
     </message>
     <message>
-        <source>One parameter only</source>
-        <translation>Nur ein Parameter</translation>
-    </message>
-    <message>
         <source>All open light fields</source>
         <translation>Alle offenen Lichtfelder</translation>
     </message>
@@ -9054,6 +9094,10 @@ s</translation>
     <message>
         <source>Runs the method on the center view with each of the values</source>
         <translation>Führt das Verfahren auf der mittleren Ansicht mit jedem der Werte aus</translation>
+    </message>
+    <message>
+        <source>One only</source>
+        <translation>Nur einer</translation>
     </message>
 </context>
 <context>
@@ -9438,8 +9482,8 @@ s</translation>
         <translation>Segment %1</translation>
     </message>
     <message>
-        <source>truly %1</source>
-        <translation>in Wahrheit %1</translation>
+        <source>ground truth: %1</source>
+        <translation>Ground Truth: %1</translation>
     </message>
 </context>
 <context>

@@ -276,12 +276,14 @@ void PlotChart::paint_grid(QPainter& painter) const {
   painter.drawLine(sharp(area_.left(), area_.top()), sharp(area_.left(), area_.bottom()));
 }
 
-// Titles are shortened to their axes; the unit, at the end, is kept.
+// Of a title longer than its axis, the unit at its end.
 void PlotChart::paint_titles(QPainter& painter, QSize size) const {
   const QFontMetricsF metrics(painter.font(), painter.device());
   const auto draw = [&](const QRectF& room, const QString& title) {
+    const bool fits = metrics.horizontalAdvance(title) <= room.width();
+    const auto unit = fits ? 0 : std::max<qsizetype>(title.lastIndexOf('['), 0);
     painter.drawText(room, Qt::AlignCenter | Qt::TextDontClip,
-                     metrics.elidedText(title, Qt::ElideMiddle, room.width()));
+                     metrics.elidedText(title.mid(unit), Qt::ElideMiddle, room.width()));
   };
   painter.setPen(palette_.color(QPalette::Text));
   const double line = metrics.height();

@@ -228,12 +228,16 @@ void MethodPanel::followTips(const QAction* cancel, const QAction* copy) {
 }
 
 QSize MethodPanel::sizeHint() const {
+  const QWidget* sheet = scroll_->widget();  // in which names of changed values may wrap
+  const int sheet_height = sheet->hasHeightForWidth()
+                               ? sheet->heightForWidth(scroll_->viewport()->width())
+                               : sheet->sizeHint().height();
   int height = -layout()->spacing();
   for (int i = 0; i < layout()->count(); ++i) {
     const QLayoutItem* item = layout()->itemAt(i);
     if (item->isEmpty()) continue;
     height += layout()->spacing();
-    height += item->widget() == scroll_   ? scroll_->widget()->sizeHint().height()
+    height += item->widget() == scroll_   ? sheet_height
               : item->hasHeightForWidth() ? item->heightForWidth(width())
                                           : item->sizeHint().height();
   }

@@ -104,7 +104,9 @@ QWidget* SegmentPanel::makeSettings() {
   settings_->setFrameShape(QFrame::NoFrame);
   settings_->setWidgetResizable(true);
   settings_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  settings_->setFixedHeight(kSettingsHeight);
+  settings_->setMinimumHeight(kSettingsHeight / 2);  // rather than a window beyond the screen
+  settings_->setMaximumHeight(kSettingsHeight);
+  settings_->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Preferred);
   settings_->setWidget(content);
   return settings_;
 }

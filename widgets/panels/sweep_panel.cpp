@@ -180,7 +180,7 @@ void SweepPanel::setMethod(const QString& method, const QString& title,
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const Row& row = rows_[i];
     row.parameter->clear();
-    if (i > 0) row.parameter->addItem(tr("One parameter only"), QString());
+    if (i > 0) row.parameter->addItem(tr("One only"), QString());
     for (const Parameter& each : parameters_) row.parameter->addItem(each.label, each.key);
     if (row.parameter->findData(former[i].key) >= 0) {
       choose_key(*row.parameter, former[i].key);

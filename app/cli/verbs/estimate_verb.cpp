@@ -189,7 +189,7 @@ void print_line(const Answer& answer) {
   const Provenance& estimate = answer.provenance;
   std::cout << answer.output << ": " << estimate.method << " of "
             << covered_views(answer.maps, answer.center).text << std::fixed << std::setprecision(2)
-            << " in " << estimate.seconds << " s, disparity " << estimate.range.min << " … "
+            << " in " << estimate.seconds << " s, searched " << estimate.range.min << " … "
             << estimate.range.max << " px, " << std::setprecision(0) << peak_memory_mib()
             << " MiB at most\n";
   if (!answer.runtime_file.empty()) {
@@ -249,8 +249,12 @@ class Runner {
     if (!is_map) {
       check_hdf5_output("estimate", task.output);
       check_result_output(task.output,
-                          {request_.estimator->info.id, request_.parameters.values(),
-                           from_.shown(task.input), io::given_options(options_of(task))},
+                          {request_.estimator->info.id,
+                           request_.parameters.values(),
+                           from_.shown(task.input),
+                           io::given_options(options_of(task)),
+                           {},
+                           options_.views == ViewSelection::Center},
                           request_.overwrite);
     } else if (!request_.is_submission) {
       check_output_file(task.output);

@@ -529,10 +529,11 @@ class Judge {
     }
     const std::string doubt = doubt_text(row.better, *estimate, scene);
     if (!doubt.empty()) row.notes.push_back(doubt);
+    for (const std::string& sentence : row.notes) job_.note(file.result + ": " + sentence);
     for (std::string& warning : truth_warnings(scene.convention)) {
+      if (told_.insert(file.truth + warning).second) job_.note(file.truth + ": " + warning);
       row.notes.push_back(std::move(warning));
     }
-    for (const std::string& sentence : row.notes) job_.note(file.result + ": " + sentence);
     write_error_map(error_map, {.view = view, .estimate = estimate, .evaluation = evaluation});
     return row;
   }
@@ -589,6 +590,7 @@ class Judge {
   Job& job_;
   TruthScene truth_;
   std::vector<std::string> keys_;  ///< Of all metrics so far.
+  std::set<std::string> told_;     ///< Warnings of truths, each said once.
 };
 
 /// Judges all. One of several that fails is noted and does not stop the others.

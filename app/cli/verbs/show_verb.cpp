@@ -175,6 +175,14 @@ void load_other(const ShownMap& shown, const Estimate& first, LoadedMap& loaded,
   loaded.source.other = std::make_shared<const Estimate>(std::move(other));
 }
 
+void note_doubts_of_truth(const std::string& truth, const Scene& scene, Job& job) {
+  for (const std::string& warning : truth_warnings(scene.convention)) {
+    job.note(truth + ": " + warning);
+  }
+  if (!scene.truth->estimated) return;
+  job.note(truth + " is no ground truth: it was " + estimated_text(*scene.truth->estimated));
+}
+
 void load_result(const ShownMap& shown, const ReadOptions& read, LoadedMap& loaded, Job& job) {
   const NamedReading reading = reading_of(shown.subject);
   std::optional<Scene> scene;
@@ -199,6 +207,7 @@ void load_result(const ShownMap& shown, const ReadOptions& read, LoadedMap& load
     note_other_source(*estimate, *scene->light_field, job);
     const std::string doubt = doubt_text(find_better_reading(*estimate, *scene), *estimate, *scene);
     if (!doubt.empty()) job.note(shown.subject + ": " + doubt);
+    if (!shown.truth.empty()) note_doubts_of_truth(shown.truth, *scene, job);
     take_scene(shown, std::move(*scene), loaded);
   }
   if (shown.quantity == Quantity::Difference) load_other(shown, *estimate, loaded, job);

@@ -30,6 +30,7 @@
 #include <QPixmap>
 #include <QPushButton>
 #include <QRadioButton>
+#include <QStandardItemModel>
 #include <QUrl>
 #include <QVBoxLayout>
 
@@ -102,7 +103,8 @@ class ImportLabelsDialog : public QDialog {
   Q_OBJECT
 
  public:
-  explicit ImportLabelsDialog(QWidget* parent);
+  /// `has_labels`: the light field in front has labels that a segmentation replaces for good.
+  ImportLabelsDialog(QWidget* parent, bool has_labels);
 
   void showLabels(const LightField& field, ViewIndex view,
                   std::shared_ptr<const io::ImportedLabels> labels);
@@ -125,7 +127,7 @@ class ImportLabelsDialog : public QDialog {
   std::shared_ptr<const io::ImportedLabels> labels_;
 };
 
-ImportLabelsDialog::ImportLabelsDialog(QWidget* parent)
+ImportLabelsDialog::ImportLabelsDialog(QWidget* parent, bool has_labels)
     : QDialog(parent),
       preview_(new QLabel(this)),
       content_(wrapped_label("importLabels.content", this)),
@@ -153,6 +155,14 @@ ImportLabelsDialog::ImportLabelsDialog(QWidget* parent)
   addUse(LabelUse::TrueLabels, "truth",
          tr("As &true labels: the segmentation is compared with them"));
   uses_->button(static_cast<int>(LabelUse::Strokes))->setChecked(true);
+  auto* warning = wrapped_label("importLabels.replaced", this);
+  warning->setText(
+      tr("The labels shown now are replaced, and undo does not bring them back: "
+         "export them first to keep them."));
+  warning->hide();
+  layout_->addWidget(warning);
+  connect(uses_, &QButtonGroup::idToggled, this,
+          [=, this] { warning->setVisible(has_labels && chosenUse() == LabelUse::Segmentation); });
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
   auto* import = buttons->addButton(tr("Import"), QDialogButtonBox::AcceptRole);
   import->setObjectName("importLabels.import");
@@ -270,7 +280,9 @@ void LabelImporter::show(const QStringList& paths, std::shared_ptr<io::ImportedL
     dialog_->showLabels(*field, session_.view(), std::move(labels));
     return;
   }
-  dialog_ = new ImportLabelsDialog(&bench_.window);
+  const KeptLabels& kept = session_.labels();
+  const bool has_labels = kept.is_worth_keeping() && !kept.is_saved;
+  dialog_ = new ImportLabelsDialog(&bench_.window, has_labels);
   dialog_->showLabels(*field, session_.view(), std::move(labels));
   connect(dialog_, &ImportLabelsDialog::ignoredChanged, this,
           [this, paths](const std::optional<std::vector<std::int32_t>>& ids) { read(paths, ids); });
@@ -343,7 +355,7 @@ class ExportLabelsDialog : public QDialog {
   Q_OBJECT
 
  public:
-  ExportLabelsDialog(QWidget* parent, bool is_up_to_date, bool has_all_views);
+  ExportLabelsDialog(QWidget* parent, const Labeling& labeling, bool is_up_to_date);
 
   [[nodiscard]] const LabelTarget& target() const { return targets_.at(form_->currentIndex()); }
   [[nodiscard]] bool hasViews() const { return views_->isEnabled() && views_->isChecked(); }
@@ -359,7 +371,13 @@ class ExportLabelsDialog : public QDialog {
   std::vector<LabelTarget> targets_;
 };
 
-ExportLabelsDialog::ExportLabelsDialog(QWidget* parent, bool is_up_to_date, bool has_all_views)
+void disable_last(QComboBox& box) {
+  auto* items = qobject_cast<QStandardItemModel*>(box.model());
+  items->item(box.count() - 1)->setEnabled(false);
+}
+
+ExportLabelsDialog::ExportLabelsDialog(QWidget* parent, const Labeling& labeling,
+                                       bool is_up_to_date)
     : QDialog(parent), form_(new QComboBox(this)), views_(new QCheckBox(this)) {
   using Kind = LabelTarget::Kind;
   setObjectName("exportLabels");
@@ -371,15 +389,21 @@ ExportLabelsDialog::ExportLabelsDialog(QWidget* parent, bool is_up_to_date, bool
   views_->setChecked(true);
   addForm(tr("Labels (HDF5)"), {Kind::Hdf5});
   addForm(tr("Labels and probabilities (HDF5)"), {Kind::Hdf5WithProbabilities});
+  const bool has_probabilities = !labeling.probabilities.empty();
+  if (!has_probabilities) disable_last(*form_);
   addForm(tr("PNG with a palette, one for each view"), {Kind::Folder, io::LabelForm::Indexed});
   addForm(tr("PASCAL VOC"), {Kind::Folder, io::LabelForm::Voc});
   addForm(tr("COCO"), {Kind::Folder, io::LabelForm::Coco});
   addForm(tr("labelme"), {Kind::Folder, io::LabelForm::Labelme});
   addForm(tr("Picture of this view (PNG)"), {Kind::Picture});
   auto* extent = wrapped_label("exportLabels.extent", this);
-  extent->setText(has_all_views
-                      ? tr("Labels of all views.")
-                      : tr("Labels of this view; segment all views first to export all."));
+  QString text = labeling.labels.grid().count() > 1
+                     ? tr("Labels of all views.")
+                     : tr("Labels of this view; segment all views first to export all.");
+  if (!has_probabilities) {
+    text += ' ' + tr("They were read from a file: segment again to export probabilities as well.");
+  }
+  extent->setText(text);
   auto* warning = wrapped_label("exportLabels.warning", this);
   warning->setText(tr("These labels are out of date: strokes or settings changed since."));
   warning->setVisible(!is_up_to_date);
@@ -440,13 +464,14 @@ void add_label_export(const Workbench& bench, const SegmentController& segment) 
 }
 
 void ask_to_export_labels(const Workbench& bench, const SegmentController& segment) {
-  if (!segment.hasSegmentation()) {
+  const auto segmentation = segment.segmentation();
+  if (!segmentation) {
     bench.messages.hint(ExportLabelsDialog::tr(
         "Nothing is segmented yet: paint two labels, then update the segmentation."));
     return;
   }
-  auto* dialog = new ExportLabelsDialog(&bench.window, segment.isSegmentationUpToDate(),
-                                        segment.hasAllViews());
+  auto* dialog = new ExportLabelsDialog(&bench.window, *segmentation->labeling,
+                                        segment.isSegmentationUpToDate());
   QObject::connect(dialog, &QDialog::accepted, &bench.owner, [bench, &segment, dialog] {
     LabelTarget target = dialog->target();
     target.has_views = dialog->hasViews();

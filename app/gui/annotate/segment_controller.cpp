@@ -545,8 +545,9 @@ void SegmentController::restore() {
 void SegmentController::takeLabels(const LabelingPtr& labeling) {
   if (!live_.has_input()) return;
   noteInput();
-  const KeptLabels kept =
+  KeptLabels kept =
       kept_labels(labeling, std::as_const(document_).document()->labels().labels(), *live_.input());
+  kept.is_imported = true;
   session_.set_labels(session_.generation(), kept);
   wants_to_show_ = true;
   adopt(kept);

@@ -103,6 +103,7 @@ BrowseController::BrowseController(const Workbench& bench)
           [this](double focus_px) { session_.set_focus(focus_px); });
   connect(&viewer_area_, &ViewerArea::previewChanged, this, &BrowseController::setPreviewing);
   connect(&bench.overlay, &Overlay::drawn, this, &BrowseController::showSlopes);  // of A or B
+  connect(&viewer_area_, &ViewerArea::previewChanged, this, &BrowseController::showSlopes);
   connect(&bench.document, &DocumentController::replaced, this, &BrowseController::markPainted);
   connect(&bench.document, &DocumentController::changed, this, &BrowseController::markPainted);
   session_.on_changed([this](Parts parts) { update(parts); });
@@ -350,7 +351,7 @@ void BrowseController::clearLinesOfOtherRows() {
 void BrowseController::showSlopes() {
   DisparityPair estimate;
   DisparityPair truth;
-  if (session_.scene()) {
+  if (session_.scene() && !viewer_area_.isPreviewing()) {
     truth = disparities_at(*session_.scene()->truth, session_.view(), session_.cross_hair());
     const bool is_flipped = bench_.overlay.isFlipped();
     if (const auto* shown = is_flipped ? session_.side_b() : session_.side_a()) {

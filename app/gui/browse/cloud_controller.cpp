@@ -93,8 +93,8 @@ CloudController::CloudController(const Workbench& bench, QWidget* tab)
 
 void CloudController::hear(Parts parts) {
   if (!panel_) return;
-  if (parts.has_any(Part::Scene | Part::Estimates | Part::Shown | Part::View | Part::Evaluations |
-                    Part::Tone)) {
+  if (parts.has_any(Part::Scene | Part::Estimates | Part::Shown | Part::Live | Part::View |
+                    Part::Evaluations | Part::Tone)) {
     refresh();
   }
   if (parts.has(Part::CrossHair) && isOnScreen() && panel_->isAvailable()) {
@@ -292,14 +292,14 @@ QString CloudRequests::obstacle() const {
   const Session& session = bench_.session;
   if (!session.scene()) return CloudRequestsText::tr("Open a light field first.");
   if (result() || truth()) return {};
-  const EstimateEntry* shown = session.shown();
+  const EstimateEntry* shown = session.side_a();
   if (!shown) return CloudRequestsText::tr("Run a method: its disparity appears here in 3D.");
   return CloudRequestsText::tr("%1 has no map of this view. Go to the center view (Home).")
       .arg(QString::fromStdString(shown->name));
 }
 
 const EstimateEntry* CloudRequests::result() const {
-  const EstimateEntry* shown = bench_.session.shown();
+  const EstimateEntry* shown = bench_.session.side_a();
   return shown && shown->estimate->contains(bench_.session.view()) ? shown : nullptr;
 }
 
@@ -314,7 +314,7 @@ std::shared_ptr<const DisparityField> CloudRequests::truth() const {
 }
 
 std::shared_ptr<const DisparityField> CloudRequests::other() const {
-  const EstimateEntry* entry = bench_.session.compared();
+  const EstimateEntry* entry = bench_.session.side_b();
   if (!entry || !entry->estimate || !entry->estimate->contains(bench_.session.view())) {
     return nullptr;
   }
@@ -322,7 +322,7 @@ std::shared_ptr<const DisparityField> CloudRequests::other() const {
 }
 
 QString CloudRequests::otherName() const {
-  return other() ? QString::fromStdString(bench_.session.compared()->name) : QString();
+  return other() ? QString::fromStdString(bench_.session.side_b()->name) : QString();
 }
 
 // Distances refer to the companion, else to the truth, else to the other result.
@@ -401,7 +401,7 @@ bool CloudRequests::addMaps(const CloudChoice& choice, PointCloudRequest& reques
   if (!request.sources[0].map) return false;
   if (request.sources.size() < 2) return true;
   if (choice.companion == CloudCompanion::Other || choice.coloring == CloudColoring::Labels) {
-    const EstimateEntry* other = bench_.session.compared();
+    const EstimateEntry* other = bench_.session.side_b();
     request.sources[1].map = map(choice.coloring, other ? other->id : 0);
     return request.sources[1].map.has_value();
   }

@@ -60,6 +60,7 @@ ValueController::ValueController(const Workbench& bench)
   });
   canvas->setPixelText([this](int y, int x) { return pixelText({y, x}); });
   connect(&bench.overlay, &Overlay::drawn, this, &ValueController::show);
+  connect(&bench.viewer_area, &ViewerArea::previewChanged, this, &ValueController::show);
   connect(&bench.jobs, &Jobs::added, this, &ValueController::showStatus);
   connect(&bench.jobs, &Jobs::removed, this, &ValueController::showStatus);
   showStatus();
@@ -79,7 +80,9 @@ void ValueController::showStatus() {
 void ValueController::show() {
   const LightFieldPtr light_field = session_.light_field();
   const PixelIndex pixel = cursor_.value_or(session_.cross_hair());
-  if (!light_field || pixel.y >= light_field->height() || pixel.x >= light_field->width()) {
+  const bool is_inside =
+      light_field && pixel.y < light_field->height() && pixel.x < light_field->width();
+  if (!is_inside || bench_.viewer_area.isPreviewing()) {
     bar_->setReading(std::nullopt);
     return;
   }
@@ -136,7 +139,14 @@ QStringList ValueController::labelsAt(PixelIndex pixel) const {
   const TrueLabelsPtr& truth = session_.true_labels();
   if (!texts.isEmpty() && truth && truth->contains(view)) {
     const int id = truth->view(view).at(pixel.y, pixel.x);
-    if (id > 0) texts << tr("truly %1").arg(name_in(session_.true_label_infos(), id));
+    const auto& known = session_.true_label_infos();
+    const auto found = std::ranges::find(known, id, &LabelInfo::id);
+    const bool has_name = found != known.end() && !found->name.empty();
+    // Without a name, an id of its own: it need not be that of a label here.
+    if (id > 0) {
+      texts << tr("ground truth: %1")
+                   .arg(has_name ? QString::fromStdString(found->name) : QString::number(id));
+    }
   }
   return texts;
 }

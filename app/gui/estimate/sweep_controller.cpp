@@ -248,7 +248,7 @@ void SweepController::showMethod() {
          !each.searched.empty()});
   }
   panel_->setMethod(QString::fromStdString(request.method),
-                    tr("%1, other values as in the Estimate tab")
+                    tr("%1, other values as in Method")
                         .arg(QString::fromStdString(find_estimator(request.method).info.name)),
                     parameters);
   showPlan();

@@ -25,7 +25,8 @@ constexpr int kLater_ms = 500;  // what changes with every movement of the hand
 bool is_worth_keeping(const Project& project) {
   return project.scenes.size() > 1 || !project.sweeps.empty() ||
          std::ranges::any_of(project.scenes, [](const ProjectScene& scene) {
-           return !scene.results.empty() || scene.labels.covers_many() || has_work(scene.place);
+           return !scene.results.empty() || scene.labels.is_worth_keeping() ||
+                  has_work(scene.place);
          });
 }
 
@@ -162,16 +163,33 @@ std::size_t result_count(const Project& project) {
   return count;
 }
 
+// "light fields: 2, results: 3, with scribbles: 1".
+QString content_of(const Project& project) {
+  QStringList parts{SessionRecovery::tr("light fields: %1").arg(project.scenes.size())};
+  const auto add = [&parts](const QString& text, std::size_t count) {
+    if (count > 0) parts << text.arg(count);
+  };
+  const auto count = [&project](auto has) {
+    return static_cast<std::size_t>(std::ranges::count_if(project.scenes, has));
+  };
+  add(SessionRecovery::tr("results: %1"), result_count(project));
+  add(SessionRecovery::tr("with scribbles: %1"),
+      count([](const ProjectScene& scene) { return !scene.strokes.empty(); }));
+  add(SessionRecovery::tr("with labels: %1"),
+      count([](const ProjectScene& scene) { return !scene.labels.empty(); }));
+  return parts.join(", ");
+}
+
 // The journals that the killed session left: each belongs to the scene that it was painted on. Also
 // where the user's own project holds everything: recovered strokes continue from there.
-void name_journals(ReadProject& read, const std::filesystem::path& folder) {
+void name_journals(Project& project, const std::filesystem::path& folder) {
   for (const OrphanedJournal& journal : orphaned_journals(folder)) {
     try {
       const RecoveredAnnotation found = read_journal(journal.path);
       if (found.is_untouched()) continue;
       const auto scene =
-          std::ranges::find(read.project.scenes, found.owner.source, &ProjectScene::input);
-      if (scene != read.project.scenes.end() && scene->strokes.empty()) {
+          std::ranges::find(project.scenes, found.owner.source, &ProjectScene::input);
+      if (scene != project.scenes.end() && scene->strokes.empty()) {
         scene->strokes = journal.path;
       }
     } catch (const IoError&) {
@@ -197,8 +215,12 @@ SessionRecovery::SessionRecovery(const Workbench& bench, Autosave& autosave)
 void SessionRecovery::look() {
   using Left = std::vector<OrphanedWorkspace>;
   job_.start<Left>(
-      [root = autosave_.root()](const Progress&) {
-        return root.empty() ? Left() : orphaned_workspaces(root);
+      [root = autosave_.root(), journals = bench_.document.journalFolder()](const Progress&) {
+        Left left = root.empty() ? Left() : orphaned_workspaces(root);
+        for (OrphanedWorkspace& each : left) {
+          if (!journals.empty()) name_journals(each.project, journals);
+        }
+        return left;
       },
       [this](Left left) {
         left_ = std::move(left);
@@ -218,15 +240,11 @@ void SessionRecovery::offerNext() {
 }
 
 void SessionRecovery::offer(const OrphanedWorkspace& left) {
-  bar_->showMessage(
-      Severity::Warning,
-      tr("Episcope ended unexpectedly (%1). What was open can be recovered: light fields: %2, "
-         "results: %3.")
-          .arg(short_text(left.last_change))
-          .arg(left.project.scenes.size())
-          .arg(result_count(left.project)),
-      {tr("Recover"), [this, left] { recover(left); }},
-      {tr("Discard…"), [this, left] { askToDiscard(left); }});
+  bar_->showMessage(Severity::Warning,
+                    tr("Episcope ended unexpectedly (%1). What was open can be recovered: %2.")
+                        .arg(short_text(left.last_change), content_of(left.project)),
+                    {tr("Recover"), [this, left] { recover(left); }},
+                    {tr("Discard…"), [this, left] { askToDiscard(left); }});
 }
 
 void SessionRecovery::askToDiscard(const OrphanedWorkspace& left) {
@@ -253,10 +271,9 @@ void SessionRecovery::recover(const OrphanedWorkspace& left) {
 void SessionRecovery::takeOver(const OrphanedWorkspace& left) {
   using Read = std::shared_ptr<ReadProject>;
   job_.start<Read>(
-      [project = left.project, journals = bench_.document.journalFolder()](const Progress&) {
+      [project = left.project](const Progress&) {
         auto read = std::make_shared<ReadProject>();
         read->project = project;
-        if (!journals.empty()) name_journals(*read, journals);
         read_strokes(*read);
         return read;
       },

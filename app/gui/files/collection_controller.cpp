@@ -291,7 +291,7 @@ bool CollectionController::isTouched(const OpenScene& scene) const {
   const auto edited = bench_.document.editedDocuments();
   const auto& sweeps = bench_.scenes.sweeps().all();
   return !scene.estimates.empty() || !scene.unread.empty() || !scene.unread_strokes.empty() ||
-         scene.labels.covers_many() || has_work(scene.place) ||
+         scene.labels.is_worth_keeping() || has_work(scene.place) ||
          bench_.jobs.count(Lane::Estimate) > 0 ||
          std::ranges::count(edited, scene.id, &EditedDocument::scene) > 0 ||
          std::ranges::any_of(sweeps, [&](const Sweep& sweep) {

@@ -12,6 +12,7 @@
 #include "app/gui/shell/frame.h"
 #include "app/gui/shell/jobs.h"
 #include "app/session/load_scene.h"
+#include "app/session/project_file.h"
 #include "app/session/result_files.h"
 #include "app/session/session.h"
 #include "engine/core/error.h"
@@ -175,10 +176,9 @@ FileController::FileController(const Workbench& bench)
   new StartStrip(bench, recent_menu_);
   bench.window.setAcceptDrops(true);
   bench.window.installEventFilter(this);
-  for (const auto what :
-       {&SceneOpener::opened, &SceneOpener::isCollection, &SceneOpener::isProject}) {
-    connect(&bench.opener, what, this, &FileController::remember);
-  }
+  connect(&bench.opener, &SceneOpener::opened, this, &FileController::remember);
+  connect(&bench.opener, &SceneOpener::isCollection, this, &FileController::remember);
+  connect(&bench.opener, &SceneOpener::isProject, this, &FileController::remember);
   connect(&bench.commands, &Commands::keysChanged, this, &FileController::showInvitation);
   bench.session.on_changed([this](Parts parts) {
     if (parts.has(Part::Scenes)) showInvitation();
@@ -373,11 +373,13 @@ void FileController::openOwner(const QString& path, const ResultOwner& owner,
   openFirst(QString::fromStdString(input), rest, failures, add);
 }
 
-// Opens one after the other, since each replaces the one being opened; results last, since they
-// belong to a light field.
+// Opens one after the other, since each replaces the one being opened; a project first, since it
+// replaces all; results last, since they belong to a light field.
 void FileController::openAll(QStringList paths, const QStringList& failures) {
   std::stable_partition(paths.begin(), paths.end(),
                         [](const QString& path) { return !is_result(path); });
+  std::stable_partition(paths.begin(), paths.end(),
+                        [](const QString& path) { return names_project(path_of(path)); });
   if (paths.isEmpty()) {
     if (!failures.isEmpty()) bench_.messages.fail(failures.join('\n'));
     return;

@@ -120,11 +120,11 @@ bool ProjectController::hasChanged() const {
   return !file().isEmpty() && content() != saved_content_;
 }
 
-void ProjectController::open(const QString& path) {
-  bench_.guards.leave(Leaving::Session, [this, path] { read(path); });
+void ProjectController::open(const QString& path, const std::function<void()>& then) {
+  bench_.guards.leave(Leaving::Session, [this, path, then] { read(path, then); });
 }
 
-void ProjectController::read(const QString& path) {
+void ProjectController::read(const QString& path, const std::function<void()>& then) {
   using Read = std::shared_ptr<ReadProject>;
   bench_.jobs.start<Read>(
       Lane::Open, tr("Opening %1").arg(QFileInfo(path).fileName()),
@@ -136,10 +136,11 @@ void ProjectController::read(const QString& path) {
         for (auto& [place, strokes] : read->strokes) forget_file_elsewhere(strokes.owner, own);
         return read;
       },
-      [this, path](const Read& read) {
+      [this, path, then](const Read& read) {
         show_project(bench_, std::move(*read), ProjectOrigin::File);
         saved_content_ = content();
         setFile(path);
+        if (then) then();
       });
 }
 
@@ -170,7 +171,7 @@ void ProjectController::saveTo(const QString& path, std::function<void()> then) 
   ask_about_changed_file(&bench_.window, path,
                          {.overwrite = [this, path, then] { write(path, then); },
                           .elsewhere = [this, then] { saveAs(then); },
-                          .reload = [this, path] { read(path); },
+                          .reload = [this, path] { read(path, nullptr); },
                           .of_reloading = tr("Reloading replaces the open light fields.")});
 }
 
@@ -328,17 +329,23 @@ void ProjectGuard::addResults(const OpenScene& scene, Loss& loss) const {
   const auto add = [&](const QString& what) {
     loss.results.push_back(job_title(what, scene).toStdString());
   };
+  std::vector<const EstimateEntry*> unsaved;
+  double all_seconds = 0;
   for (const EstimateEntry& entry : scene.estimates) {
-    const double seconds = entry.estimate ? entry.estimate->seconds : worth_keeping_s_;
-    if (!entry.is_saved && is_worth_it(seconds)) add(QString::fromStdString(entry.name));
+    if (entry.is_saved) continue;
+    unsaved.push_back(&entry);
+    all_seconds += entry.estimate ? entry.estimate->seconds : worth_keeping_s_;
   }
-  // Labels of one view are learned again in a moment.
+  for (const EstimateEntry* entry : unsaved) {
+    if (is_worth_it(all_seconds)) add(QString::fromStdString(entry->name));
+  }
   const KeptLabels& labels = scene.labels;
   const bool is_on_disk_alone = !labels.labeling && !labels.file.empty();
-  if (labels.is_saved || !(labels.covers_many() || is_on_disk_alone)) return;
+  if (labels.is_saved || !(labels.is_worth_keeping() || is_on_disk_alone)) return;
   // What was read from a file does not say how long it took.
   const double seconds = labels.labeling ? labels.labeling->seconds : 0;
-  if (is_worth_it(seconds > 0 ? seconds : worth_keeping_s_)) add(tr("labels of all views"));
+  if (!is_worth_it(seconds > 0 ? seconds : worth_keeping_s_)) return;
+  add(labels.is_imported ? tr("imported labels") : tr("labels of all views"));
 }
 
 int ProjectGuard::runningCount() const {

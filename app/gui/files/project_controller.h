@@ -31,7 +31,8 @@ class ProjectController : public QObject {
   ProjectController(const Workbench& bench, Autosave& autosave);
 
   /// Opens a project in place of everything open, once nothing would be lost.
-  void open(const QString& path);
+  /// Calls `then` (may be null) once the project is open.
+  void open(const QString& path, const std::function<void()>& then);
   /// Saves to the project's file, or asks for one. Calls `then` on success.
   void save(std::function<void()> then = nullptr);
   void saveAs(std::function<void()> then = nullptr);
@@ -44,7 +45,7 @@ class ProjectController : public QObject {
 
  private:
   void addCommands();
-  void read(const QString& path);
+  void read(const QString& path, const std::function<void()>& then);
   void write(const QString& path, std::function<void()> then);
   void noteSaved(const QString& path, const Project& written);
   void setFile(const QString& path);

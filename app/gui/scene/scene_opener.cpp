@@ -203,7 +203,7 @@ void SceneOpener::open(const QString& input_as_given, std::function<void()> then
                        std::function<void(const QString&)> otherwise) {
   const QString input = absolute(input_as_given);
   if (names_project(input.toStdString())) {
-    emit isProject(input);
+    emit isProject(input, then);
     return;
   }
   if (const std::uint64_t open = session_.scene_of(input.toStdString())) {

@@ -68,8 +68,8 @@ class SceneOpener : public QObject {
   void opened(const QString& input);
   /// The requested folder is no light field but contains some.
   void isCollection(const QString& folder);
-  /// The requested path is a project file.
-  void isProject(const QString& path);
+  /// The requested path is a project file. `then` (may be null) is to be called once it is open.
+  void isProject(const QString& path, const std::function<void()>& then);
   /// Another input is open, so that this failure no longer matters.
   void failureIsOver(const QString& sentence);
 

@@ -326,6 +326,14 @@ bool presses(const QKeyEvent& key) {
   return key.key() == Qt::Key_Space || key.key() == Qt::Key_Return || key.key() == Qt::Key_Enter;
 }
 
+// Closes a list that has dropped down, which else would not keep the key from commands.
+bool closes_list(QKeyEvent& key) {
+  auto* list = QApplication::activePopupWidget();
+  if (key.key() != Qt::Key_Escape || !list || qobject_cast<QMenu*>(list)) return false;
+  key.accept();
+  return list->close();
+}
+
 void drop_typed(QWidget& field) {
   if (auto* number = qobject_cast<QDoubleSpinBox*>(&field)) number->setValue(number->value());
   if (auto* number = qobject_cast<QSpinBox*>(&field)) number->setValue(number->value());
@@ -353,6 +361,8 @@ bool KeyboardHome::eventFilter(QObject* watched, QEvent* event) {
       if (isOfWindow(watched)) endTyping(*static_cast<QWidget*>(watched));
       return false;
     case QEvent::ShortcutOverride:
+      if (closes_list(*static_cast<QKeyEvent*>(event))) return true;
+      [[fallthrough]];
     case QEvent::KeyPress:
       return watched == QApplication::focusWidget() && isOfWindow(watched) &&
              hear(*static_cast<QWidget*>(watched), *static_cast<QKeyEvent*>(event));

@@ -141,6 +141,7 @@ def score(
     protocol: str = ...,
     invalid: str = ...,
     view: Optional[View] = ...,
+    **reading: Any,
 ) -> Dict[str, Any]: ...
 def label(
     light_field: LightField,

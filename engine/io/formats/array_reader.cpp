@@ -237,6 +237,22 @@ void report_form(const ArrayFile& file, const ArrayEntry& entry, const ChosenLay
   if (!chosen.warning.empty()) report.warnings.push_back(chosen.warning);
 }
 
+/// Exchanges rows and columns of views, unless they were stated, if only that makes the grid that
+/// is asked for. Throws InvalidInput for any other grid than that of the array.
+void fit_to_grid(const ArrayFile& file, const OpenOptions& options, ChosenLayout& chosen) {
+  const auto wanted = given_grid(options);
+  if (!wanted || chosen.layout.has('n') || chosen.layout.grid() == *wanted) return;
+  if (chosen.reason.starts_with("by shape") && chosen.layout.crossed().grid() == *wanted) {
+    chosen.layout = chosen.layout.crossed();
+    chosen.reason = "by shape and the grid as chosen";
+    chosen.warning.clear();
+    return;
+  }
+  throw InvalidInput(fmt::format("{}: the array has {} views, not {}; leave out --grid",
+                                 file.path().string(), grid_text(chosen.layout.grid()),
+                                 grid_text(*wanted)));
+}
+
 SceneProbe probe_single(const ArrayFile& file, const OpenOptions& options) {
   const ArrayEntry* entry = find_light_field(file, options.dataset, options.axes);
   if (!entry) throw NoLightField(file.path(), "no array of this file has the shape of one");
@@ -267,6 +283,7 @@ Scene read_single(const ArrayFile& file, const char* reader, const OpenOptions& 
   }
   progress.check();
   check_layout(*array, entry.order, chosen, progress.part(0, 0.05));
+  fit_to_grid(file, options, chosen);
 
   Scene scene;
   progress.step("reading views");

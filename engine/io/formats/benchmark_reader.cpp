@@ -358,7 +358,7 @@ Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const P
   account.leave_out(views.unusable, kUnusableViews);
   if (config) account.use(folder / kBenchmarkConfig, "parameter files");
   settle_range(samples, options.levels, report);
-  progress.step("reading truth");
+  progress.step("reading ground truth");
   const ViewSize size = size_of(samples);
   if (config) {
     compare_size(*config, size, report);

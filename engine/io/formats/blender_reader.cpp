@@ -258,7 +258,7 @@ Scene read_blender(const fs::path& folder, const OpenOptions& options, const Pro
       },
       progress.part(0, 0.5));
   require_size(manifest, loaded.samples);
-  progress.step("reading truth");
+  progress.step("reading ground truth");
   SceneParts parts;
   parts.truth = read_render_truth(manifest, crop, options.map_views(), options.needs_truth,
                                   progress.part(0.5, 0.8));

@@ -22,6 +22,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -53,19 +54,20 @@ Image<float> read_float_tiff(const fs::path& path) {
                     ", but a disparity map needs 32-bit float samples; export it in that format");
 }
 
+bool names_disparity(const std::string& name) {
+  return lower_case(name).find("disp") != std::string::npos;
+}
+
 /// The place, among the names of all arrays that can be a disparity map, of the one that is meant:
 /// the only one, or the only one of the expected name. `what`: what an array is called.
 std::size_t meant_map(const fs::path& path, const std::vector<std::string>& names,
                       const std::string& what) {
   if (names.size() == 1) return 0;
-  const auto is_named = [](const std::string& name) {
-    return lower_case(name).find("disp") != std::string::npos;
-  };
   const auto place_of = [&names](const auto& found) {
     return static_cast<std::size_t>(found - names.begin());
   };
-  if (std::ranges::count_if(names, is_named) == 1) {
-    return place_of(std::ranges::find_if(names, is_named));
+  if (std::ranges::count_if(names, names_disparity) == 1) {
+    return place_of(std::ranges::find_if(names, names_disparity));
   }
   const auto exact = std::ranges::find_if(
       names, [](const std::string& name) { return lower_case(name) == "disparity"; });
@@ -78,13 +80,23 @@ std::size_t meant_map(const fs::path& path, const std::vector<std::string>& name
                                   what, found, names.empty() ? "as one" : "alone"));
 }
 
-/// The one dataset of an HDF5 file that can be a disparity map.
+}  // namespace
+
+bool can_be_map(const Hdf5Dataset& dataset) {
+  const bool has_axes = dataset.shape.size() == 2 || dataset.shape.size() == 4;
+  const bool has_numbers = dataset.type == Hdf5Type::Float ||
+                           (dataset.type != Hdf5Type::Other && names_disparity(dataset.name));
+  return has_axes && has_numbers;
+}
+
+namespace {
+
+/// The one dataset of an HDF5 file that can be a disparity map: of floats, else of whole numbers.
 Hdf5Dataset find_map(const Hdf5Input& file) {
   std::vector<Hdf5Dataset> maps = file.datasets();
-  std::erase_if(maps, [](const Hdf5Dataset& dataset) {
-    const bool is_map = dataset.shape.size() == 2 || dataset.shape.size() == 4;
-    return !is_map || dataset.type != Hdf5Type::Float;
-  });
+  std::erase_if(maps, [](const Hdf5Dataset& dataset) { return !can_be_map(dataset); });
+  const auto is_float = [](const Hdf5Dataset& map) { return map.type == Hdf5Type::Float; };
+  if (std::ranges::any_of(maps, is_float)) std::erase_if(maps, std::not_fn(is_float));
   std::vector<std::string> names;
   for (const Hdf5Dataset& map : maps) names.push_back(map.name);
   return maps[meant_map(file.path(), names, "dataset of float samples")];

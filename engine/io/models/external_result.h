@@ -3,6 +3,7 @@
 
 #include "engine/core/disparity_field.h"
 #include "engine/core/estimate.h"
+#include "engine/io/base/hdf5_file.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -15,9 +16,13 @@ namespace episcope::io {
 inline constexpr const char* kMapForms =
     "HDF5 or .mat (5 to 7.3) with one map, .npy, .npz, PFM, float TIFF, .csv";
 
+/// Whether a dataset can be a disparity map, of one view or of all: floats, or whole numbers that
+/// are named disparity.
+[[nodiscard]] bool can_be_map(const Hdf5Dataset& dataset);
+
 /// Reads a disparity map of another program: PFM, 32-bit float TIFF, `.csv` (`read_csv_map`),
 /// `.npy` of two or four axes, an `.npz` or MATLAB file with one such array, or an HDF5 file with
-/// one 2-D or 4-D dataset of float samples, in the order of axes that it states
+/// one such dataset (`can_be_map`; floats go first), in the order of axes that it states
 /// (`stated_map_layout`). Of several arrays, the only one named like disparity is meant. A 2-D map
 /// belongs to the center view of `grid`. Values that are not finite, and those that an HDF5 file
 /// states as `_FillValue` or `missing_value`, become invalid pixels. Throws IoError with one

@@ -45,7 +45,8 @@ constexpr float kUsualMissing[] = {0, -1};
 constexpr double kLargestScale = 1e5;
 constexpr int kWidestBorder = 1 << 12;
 constexpr double kMostPoints = 10000;
-constexpr int kRowStride = 4;  ///< Of the rows that are warped.
+constexpr int kRowStride = 4;     ///< Of the rows that are warped.
+constexpr int kFarthestOff = 16;  ///< Pixels that maps are looked for off their place.
 
 /// Integers that stand for fractions of a pixel: decimal, and fixed-point numbers of matchers. And
 /// maps of half or twice the resolution that were resized with their values as they were.
@@ -71,8 +72,8 @@ float value_by(const DisparityView& map, const MapReading& reading, const MapTar
   if (y < border || x < border || y >= target.height - border || x >= target.width - border) {
     return kNone;
   }
-  int row = y - border + target.above;
-  int column = x - border + target.left;
+  int row = y - border - reading.down_px + target.above;
+  int column = x - border - reading.right_px + target.left;
   const int height = reading.is_transposed ? map.disparity.width : map.disparity.height;
   const int width = reading.is_transposed ? map.disparity.height : map.disparity.width;
   if (reading.is_resized) {
@@ -162,6 +163,12 @@ Schema<MapReading> map_schema() {
                 "that far from the upper left corner",
                 "px"},
                {0, kWidestBorder})
+      .integer("map-down", &R::down_px,
+               {"Move maps down", "Pixels by which the maps are to be moved down", "px"},
+               {-kWidestBorder, kWidestBorder})
+      .integer("map-right", &R::right_px,
+               {"Move maps right", "Pixels by which the maps are to be moved to the right", "px"},
+               {-kWidestBorder, kWidestBorder})
       .toggle(
           "map-resize", &R::is_resized,
           {"Resize maps",
@@ -210,6 +217,15 @@ std::string reading_text(const MapReading& reading) {
   }
   if (reading.border_px > 0) {
     parts.push_back(fmt::format("a border of {} px around the map", reading.border_px));
+  }
+  if (reading.down_px != 0) {
+    parts.push_back(fmt::format("maps moved {} by {} px", reading.down_px > 0 ? "down" : "up",
+                                std::abs(reading.down_px)));
+  }
+  if (reading.right_px != 0) {
+    parts.push_back(fmt::format("maps moved to the {} by {} px",
+                                reading.right_px > 0 ? "right" : "left",
+                                std::abs(reading.right_px)));
   }
   if (reading.is_resized) parts.emplace_back("maps resized");
   if (reading.crop == MapCrop::Corner) parts.emplace_back("the upper left of padded maps");
@@ -364,6 +380,15 @@ int corner_border(const DisparityView& map) {
   return rows == columns && rows % 2 == 0 && rows <= widest ? rows / 2 : 0;
 }
 
+/// Maps that are off their place.
+void add_moved(std::vector<MapReading>& readings) {
+  for (int down = -kFarthestOff; down <= kFarthestOff; ++down) {
+    for (int right = -kFarthestOff; right <= kFarthestOff; ++right) {
+      if (down != 0 || right != 0) readings.push_back({.down_px = down, .right_px = right});
+    }
+  }
+}
+
 /// What may be meant, the readings that change least first; the map as read is not among them.
 std::vector<MapReading> possible_readings(const DisparityView& map, const LightField& light_field,
                                           bool has_truth) {
@@ -373,6 +398,7 @@ std::vector<MapReading> possible_readings(const DisparityView& map, const LightF
   std::vector<MapReading> readings(turned.begin() + 1, turned.end());
   readings.insert(readings.end(), valued.begin() + 1, valued.end());
   if (const int border = corner_border(map)) readings.push_back({.border_px = border});
+  if (has_truth) add_moved(readings);
   for (std::size_t i = 1; i < turned.size(); ++i) {
     for (std::size_t k = 1; k < valued.size(); ++k) {
       const bool is_tried = has_truth || valued[k] == MapReading{.scale = -1};
@@ -409,20 +435,38 @@ class TruthPoints {
   /// Mean absolute error by a reading; infinite if the map has values at few of the pixels.
   [[nodiscard]] double error(const DisparityView& map, const MapReading& reading,
                              const MapTarget& target) const {
-    double sum = 0;
-    std::size_t count = 0;
-    for (const Point& point : points_) {
-      const float value = value_by(map, reading, target, point.y, point.x);
-      if (!std::isfinite(value)) continue;
-      sum += std::abs(value - point.disparity);
-      ++count;
-    }
-    const bool is_enough = count > 0 && static_cast<double>(count) >=
-                                            kLeastCompared * static_cast<double>(points_.size());
-    return is_enough ? sum / static_cast<double>(count) : std::numeric_limits<double>::infinity();
+    return mean_error(errors(map, reading, target), 0);
+  }
+
+  /// The same of the map as it is, but for one value by which all of it is off.
+  [[nodiscard]] double unbiased_error(const DisparityView& map, const MapTarget& target) const {
+    std::vector<float> all = errors(map, {}, target);
+    return all.empty() ? std::numeric_limits<double>::infinity()
+                       : mean_error(all, quantile(all, 0.5));
   }
 
  private:
+  [[nodiscard]] std::vector<float> errors(const DisparityView& map, const MapReading& reading,
+                                          const MapTarget& target) const {
+    std::vector<float> all;
+    all.reserve(points_.size());
+    for (const Point& point : points_) {
+      const float value = value_by(map, reading, target, point.y, point.x);
+      if (std::isfinite(value)) all.push_back(value - point.disparity);
+    }
+    return all;
+  }
+
+  [[nodiscard]] double mean_error(const std::vector<float>& all, float bias) const {
+    const auto count = static_cast<double>(all.size());
+    if (count == 0 || count < kLeastCompared * static_cast<double>(points_.size())) {
+      return std::numeric_limits<double>::infinity();
+    }
+    double sum = 0;
+    for (const float error : all) sum += std::abs(error - bias);
+    return sum / count;
+  }
+
   struct Point {
     int y = 0;
     int x = 0;
@@ -506,8 +550,12 @@ std::optional<MapReading> least_reading(const std::vector<MapReading>& readings,
 std::optional<MapReading> found_by_truth(const DisparityView& map, const MapEvidence& evidence,
                                          const MapTarget& target) {
   const TruthPoints truth(evidence.truth);
+  // On slanted surfaces, a map that is off by one value resembles one that is off its place.
+  const double most_moved = kFarBetterByTruth * truth.unbiased_error(map, target);
   const auto error_of = [&](const MapReading& reading) {
-    return truth.error(map, reading, target);
+    const double error = truth.error(map, reading, target);
+    const bool is_moved = reading.down_px != 0 || reading.right_px != 0;
+    return is_moved && error > most_moved ? std::numeric_limits<double>::infinity() : error;
   };
   const double limit = kFarBetterByTruth * std::min(error_of({}), truth.constant_error());
   return least_reading(possible_readings(map, evidence.light_field, true), limit, error_of);

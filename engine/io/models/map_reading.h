@@ -35,6 +35,8 @@ struct MapReading {
   /// The maps lack so many pixels at each side of the views: pixel (0, 0) of a map is pixel
   /// (`border_px`, `border_px`) of a view. Only the middle of the views is judged.
   int border_px = 0;
+  int down_px = 0;               ///< The maps are moved down by so many pixels,
+  int right_px = 0;              ///< and to the right; what leaves the views is lost.
   MapCrop crop = MapCrop::None;  ///< Maps that are larger than the views, as networks pad them.
   /// Stored values, between commas, that stand for no estimate: "-1" or "0,9999". Empty = none.
   std::string missing = {};
@@ -45,7 +47,7 @@ struct MapReading {
 };
 
 /// Schema of the options, one row each: `map-transpose`, `map-flip`, `map-scale`, `map-values`,
-/// `map-border`, `map-resize`, `map-crop`, `map-missing`.
+/// `map-border`, `map-down`, `map-right`, `map-resize`, `map-crop`, `map-missing`.
 [[nodiscard]] Schema<MapReading> map_schema();
 
 /// Options that differ from reading a map as it is, by key.
@@ -90,8 +92,9 @@ struct BetterReading {
 };
 
 /// Looks for a reading of a map in the ways in which people err: rows and columns exchanged,
-/// reversed, negated, another scale, depth instead of disparity, and a map without a border
-/// that lies in the upper left corner, with nothing beside it. So does a value that stands for no
+/// reversed, negated, another scale, depth instead of disparity, a map without a border
+/// that lies in the upper left corner, with nothing beside it, and with truth a map that is up to
+/// 16 px off its place. So does a value that stands for no
 /// estimate: one that many pixels have, far beyond all others or 0 or -1, where the truth is not
 /// near it. With truth, the mean absolute error
 /// decides, over all combinations of turns and values: it must be less than half of the error as

@@ -183,19 +183,26 @@ char axis_letter(std::string name) {
   return '?';
 }
 
-/// Letters of the axes that an attribute lists: "x,y", "xy", "u, v, x, y".
-std::string listed_axes(const std::string& list) {
-  std::string letters;
-  for (const char c : list) {
-    if (c != ',' && c != ' ') letters += axis_letter({c});
-  }
-  return letters;
-}
-
 /// Letters of axes that have a name each.
 std::string named_axes(const std::vector<std::string>& names) {
   std::string letters;
   for (const std::string& name : names) letters += axis_letter(name);
+  return letters;
+}
+
+/// Letters of the axes that an attribute lists: "x,y", "xy", "u, v, x, y", "height width".
+std::string listed_axes(const std::string& list) {
+  std::vector<std::string> names(1);
+  for (const char c : list) {
+    if (c != ',' && c != ' ') {
+      names.back() += c;
+    } else if (!names.back().empty()) {
+      names.emplace_back();
+    }
+  }
+  if (names.size() > 1) return named_axes(names);
+  std::string letters;
+  for (const char c : list) letters += axis_letter({c});
   return letters;
 }
 
@@ -212,6 +219,7 @@ bool is_octave_variable(const Hdf5Input& file, const std::string& dataset) {
 ArrayLayout stated_map_layout(const Hdf5Input& file, const Hdf5Dataset& dataset) {
   const std::string usual = dataset.shape.size() == 2 ? "yx" : "vuyx";
   for (const std::string& stated : {listed_axes(file.text(dataset.name, "axes").value_or("")),
+                                    named_axes(file.texts(dataset.name, "axes")),
                                     named_axes(file.texts(dataset.name, "DIMENSION_LABELS")),
                                     named_axes(file.scale_names(dataset.name))}) {
     if (std::ranges::is_permutation(stated, usual)) return {dataset.shape, stated};

@@ -30,7 +30,7 @@ def test_scores_compare_with_the_true_labels(scene, labeling):
 
 
 def test_strokes_may_be_named_by_their_view(scene, strokes, labeling):
-    same = episcope.label(scene, {(2, 2): strokes}, features="image", trees=16)
+    same = episcope.label(scene, {(2, 2): strokes.astype(float)}, features="image", trees=16)  # as MATLAB has them
     assert numpy.array_equal(same.labels, labeling.labels)
     all_views = numpy.zeros(scene.labels.shape, numpy.uint8)
     all_views[2, 2] = strokes

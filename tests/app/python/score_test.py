@@ -55,6 +55,30 @@ def test_array_that_was_stored_otherwise_is_told_as_by_the_command_line(scene, r
     assert "better_reading" not in episcope.score(result, scene)
 
 
+@pytest.mark.parametrize("as_file", [False, True])
+def test_map_is_read_as_the_advice_says(scene, result, as_file, tmp_path):
+    truly = episcope.score(result, scene)["mse_100"]
+    stored = (-100 * result.disparity[2, 2].T).copy()
+    numpy.save(tmp_path / "mine.npy", stored)
+    map = tmp_path / "mine.npy" if as_file else stored
+    reading = {"map_transpose": True, "map_scale": -0.01}
+    assert episcope.score(map, scene)["mse_100"] > 100 * truly
+    assert episcope.score(map, scene, **reading)["mse_100"] == pytest.approx(truly, rel=1e-3)
+    truth = scene.truth[2, 2]
+    assert episcope.score(stored, truth, **reading)["mse_100"] == pytest.approx(truly, rel=1e-3)
+    assert episcope.score(result, scene, map_scale=2)["mse_100"] > 10 * truly
+    with pytest.raises(episcope.InvalidInput, match="map_turn"):
+        episcope.score(stored, scene, map_turn=True)
+
+
+def test_map_on_its_side_is_told():
+    oblong = episcope.demo("objects?size=64x48&grid=3")
+    turned = oblong.truth[1, 1].T.copy()
+    with pytest.raises(episcope.InvalidInput, match="map_transpose=True"):
+        episcope.score(turned, oblong)
+    assert episcope.score(turned, oblong, map_transpose=True)["mse_100"] < 1e-6
+
+
 def test_map_that_explains_little_is_told(scene, result, tmp_path, cli):
     noise = numpy.random.default_rng(1).uniform(-1, 1, scene.truth.shape[2:]).astype("float32")
     numpy.save(tmp_path / "mine.npy", noise)

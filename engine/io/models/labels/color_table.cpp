@@ -153,6 +153,7 @@ void write_label_map_text(const fs::path& path, const std::vector<LabelInfo>& la
     if (!written.insert(label.color).second) continue;  // the form has one label a color
     std::string name = label.name;
     std::ranges::replace(name, ':', ' ');
+    if (name == kBackground) name += fmt::format("_{}", label.id);  // a name of its own
     text += fmt::format("{}:{},{},{}::\n", name, label.color[0], label.color[1], label.color[2]);
   }
   write_atomically(path, text);

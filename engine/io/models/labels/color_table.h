@@ -17,7 +17,7 @@ namespace episcope::io {
 [[nodiscard]] std::vector<LabelInfo> read_color_table(const std::filesystem::path& path);
 
 /// Writes `labelmap.txt` as CVAT and Datumaro have it, with a background in black; of labels of one
-/// color only the first. Atomic. Throws IoError.
+/// color only the first; a label called background becomes background_ID. Atomic. Throws IoError.
 void write_label_map_text(const std::filesystem::path& path, const std::vector<LabelInfo>& labels);
 
 /// `labelmap.txt` in a folder or, as VOC folders have it, in the one around; empty if there is

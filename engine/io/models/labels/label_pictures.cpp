@@ -417,18 +417,24 @@ ImportedLabels strokes_of_numbers(std::vector<ViewPicture>& pictures, const Labe
   const LabelPicture& first = pictures.front().picture;
   strokes.scribbles.labels = labels_of(census, first, labels);
   const bool has_palette = !first.palette.empty();
-  if (!has_palette && census.transparent == 0) return strokes;
+  if (pictures.front().is_own) return strokes;
   const auto zeros = census.counts.find(0);
   const std::string ground = zeros == census.counts.end()
                                  ? ""
-                                 : fmt::format("{} 0 ({})", has_palette ? "index" : "level",
+                                 : fmt::format("{}0 ({})", has_palette ? "index " : "",
                                                share_text(zeros->second, census.all()));
   if (has_palette) {
     strokes.notes.push_back(path.string() + ": a label is an index of the palette: " +
                             joined(strokes.scribbles.labels, ", ", label_text));
   }
-  strokes.notes.push_back(path.string() + ": " +
-                          ground_text(ground, census.transparent, census.all()));
+  std::string unpainted = ground_text(ground, census.transparent, census.all());
+  if (ground.empty() && census.transparent == 0) {
+    const auto& [id, count] =
+        *std::ranges::max_element(census.counts, {}, [](const auto& one) { return one.second; });
+    unpainted += fmt::format("; if {} ({}) means that none is, ignore that id", id,
+                             share_text(count, census.all()));
+  }
+  strokes.notes.push_back(path.string() + ": " + unpainted);
   return strokes;
 }
 

@@ -80,6 +80,11 @@ refused("a/view.png: exists and holds something else; .*--overwrite" show a/r.h5
 expect_kept(a/view.png)
 expect("another picture when asked" 0 ARGS show a/r.h5 -o a/view.png --overwrite)
 expect_files(a labels.h5 lf.h5 r.h5 r.pfm view.png)
+expect("all views" 0 ARGS estimate epi_l a -o b/all.h5)
+refused("b/all.h5: exists and holds a result of several views; .*--overwrite" estimate epi_l a
+        -o b/all.h5 --views center)
+expect("one view when asked" 0 ARGS estimate epi_l a -o b/all.h5 --views center --overwrite)
+expect("all views in its place" 0 ARGS estimate epi_l a -o b/all.h5)
 
 # Nor do labels of other strokes, disparity or parameters.
 expect("strokes" 0 ARGS label a -o a/drawn.h5 --features image --regularizer view)

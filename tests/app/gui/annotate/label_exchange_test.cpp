@@ -78,6 +78,7 @@ class LabelExchangeTest : public QObject {
   void drawing_isImportedByItsColors();
   void oneOfThreeUses_isAskedFor();
   void labelsOfAllViews_becomeTheSegmentation();
+  void importedLabels_areNotReplacedUnsaid();
   void trueLabels_areCompared();
   void anotherId_isUnlabeledAtOnce();
   void largeIds_areRenumbered();
@@ -136,6 +137,24 @@ void LabelExchangeTest::labelsOfAllViews_becomeTheSegmentation() {
   QCOMPARE(labeling->labels.view({0, 8}).at(5, 60), 2);
   QCOMPARE(f.labelAt({40, 40}), 0);  // nothing is painted
   QVERIFY(f.document().labels().contains(2));
+}
+
+void LabelExchangeTest::importedLabels_areNotReplacedUnsaid() {
+  Exchanging f;
+  f.importer().open({f.drawn("ids.png", 3)});
+  QTRY_VERIFY(f.part<QRadioButton>("importLabels.segmentation"));
+  f.part<QRadioButton>("importLabels.segmentation")->click();
+  QVERIFY(!f.part<QLabel>("importLabels.replaced")->isVisible());
+  f.accept("segmentation");
+  QTRY_VERIFY(f.segment().segmentation());
+  QVERIFY(f.window.bench().session.labels().is_worth_keeping());  // of one view, but nothing else gives them
+
+  f.importer().open({f.halves("all.npy")});
+
+  QTRY_VERIFY(f.part<QRadioButton>("importLabels.segmentation"));
+  QVERIFY(!f.part<QLabel>("importLabels.replaced")->isVisible());
+  f.part<QRadioButton>("importLabels.segmentation")->click();
+  QVERIFY(f.part<QLabel>("importLabels.replaced")->isVisible());
 }
 
 void LabelExchangeTest::trueLabels_areCompared() {

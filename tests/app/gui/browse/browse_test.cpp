@@ -266,6 +266,14 @@ void BrowseTest::valuesAtTheCursor_areRead() {
   const auto text = [&f] { return f.window.findChild<ValueBar*>()->text(); };
   QTRY_VERIFY2_WITH_TIMEOUT(text().contains("x 33 y 20"), qPrintable(text()), kPatience);
   QVERIFY2(text().contains("truth") && text().contains("EPI_L"), qPrintable(text()));
+
+  // While another light field is read, these values are of none that is seen.
+  ViewerArea& area = f.window.bench().viewer_area;
+  area.showPreview(QImage(8, 8, QImage::Format_RGB32), "another");
+  QTest::mouseMove(canvas, canvas->positionOf({3, 3}).toPoint());
+  QVERIFY2(!text().contains("truth") && !text().contains("EPI_L"), qPrintable(text()));
+  area.endPreview();
+  QTRY_VERIFY2_WITH_TIMEOUT(text().contains("EPI_L"), qPrintable(text()), kPatience);
 }
 
 }  // namespace episcope::in_browse_test

@@ -224,6 +224,10 @@ void CloudWindowTest::withoutAResult_theTruthIsSeen() {
   f.trigger("tab.cloud");
   QTRY_VERIFY2_WITH_TIMEOUT(summary->text().startsWith("EPI"), qPrintable(summary->text()),
                             kPatience);
+  Session& session = f.window.bench().session;
+  session.set_live({0, "Live", session.shown()->estimate, {}}, session.generation());
+  QTRY_VERIFY2_WITH_TIMEOUT(summary->text().startsWith("Live"), qPrintable(summary->text()),
+                            kPatience);
 }
 
 void CloudWindowTest::distance_isToldAsNumberAndColours() {

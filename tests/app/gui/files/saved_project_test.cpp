@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/files/file_controller.h"
 #include "app/session/project_file.h"
 #include "app/session/project_store.h"
 #include "tests/app/gui/files/working.h"
@@ -108,6 +109,7 @@ class SavedProjectTest : public QObject {
 
  private slots:
   void savedProject_comesBackWhole();
+  void filesBesideAProject_areOpenedAfterIt();
   void strokesInAProject_areNotInTheirFile();
   void savedProject_canBeMoved();
   void movedLightFields_areAskedForOnce();
@@ -142,6 +144,17 @@ void SavedProjectTest::savedProject_comesBackWhole() {
   f.show(scenes[0]->id);
   QCOMPARE(f.session().shown()->name, std::string("with my defaults"));
   QCOMPARE(f.session().shown()->estimate->method, std::string("st_ch_l"));
+}
+
+void SavedProjectTest::filesBesideAProject_areOpenedAfterIt() {
+  const QTemporaryDir folder;
+  save_work_of_three(folder);
+  Working f;
+
+  f.window.findChild<FileController*>()->open({"demo:fronto", folder.filePath("work.episcope")});
+
+  QTRY_COMPARE_WITH_TIMEOUT(f.session().scenes().size(), 4U, kPatience);
+  QTRY_COMPARE_WITH_TIMEOUT(f.session().scenes()[3]->input, std::string("demo:fronto"), kPatience);
 }
 
 void SavedProjectTest::strokesInAProject_areNotInTheirFile() {

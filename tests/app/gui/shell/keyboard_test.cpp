@@ -131,11 +131,15 @@ void KeyboardTest::mouse_leavesTheKeysWithTheView() {
   Typing f;
   auto* method = f.window.findChild<QComboBox*>("method.combo");
   QVERIFY(method);
+  int cancelled = 0;
+  f.window.bench().cancels.add(CancelRank::Job, [&cancelled] { return ++cancelled > 0; });
 
   QTest::mouseClick(method, Qt::LeftButton);
   QTest::keyClick(method->view(), Qt::Key_Escape);
 
   QCOMPARE(QApplication::focusWidget(), f.canvas());
+  QVERIFY(!method->view()->isVisible());
+  QCOMPARE(cancelled, 0);  // the key closed the list alone
   f.press(Qt::Key_Left);
   QVERIFY((f.view() == ViewIndex{4, 3}));
 }

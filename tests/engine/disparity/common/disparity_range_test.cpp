@@ -90,6 +90,8 @@ class DisparityRangeTest : public QObject {
   void rangeToBeFound_ignoresThePromise();
   void note_tellsOfARangeToBeFound();
   void note_tellsOfARangeThatEndsAtTheLimit();
+  void note_tellsOfARangeThatHoldsNothing();
+  void note_tellsWhereNothingMatches();
   void foundRange_ofGridTooLargeIsRefused();
   void stop_throwsCancelled();
   void coveringShears_reachEveryDisparity_data();
@@ -322,6 +324,35 @@ void DisparityRangeTest::note_tellsOfARangeThatEndsAtTheLimit() {
   QCOMPARE(notes(near, IntervalOrAuto::found()), 1);
   QCOMPARE(notes(near, Interval{-6, 6}), 0);
   QCOMPARE(notes(usual, IntervalOrAuto::found()), 0);
+}
+
+void DisparityRangeTest::note_tellsOfARangeThatHoldsNothing() {
+  const Scene scene = render("slant", 64, 64, {5, 5});  // -1 … 1 px
+  const auto is_told = [&scene](Interval range) {
+    const Estimate estimate =
+        find_estimator("st_ch_l").run(*scene.light_field, {{"range", range}}, {}, Progress());
+    return std::ranges::any_of(estimate.notes, [](const std::string& note) {
+      return note.starts_with("Nothing matches at disparities of");
+    });
+  };
+
+  QVERIFY(is_told({3, 4}));
+  QVERIFY(is_told({-4, -3}));
+  QVERIFY(!is_told({0.5, 4}));
+  QVERIFY(!is_told({-4, 4}));
+}
+
+void DisparityRangeTest::note_tellsWhereNothingMatches() {
+  const LightField lf =
+      make_light_field({5, 5}, 32, 40, 1, [](ViewIndex, int, int, int) { return 0.7F; });
+  const Estimate estimate = find_estimator("plane_pm").run(lf, {}, {}, Progress());
+  const auto is_told = [&estimate](const std::string& text) {
+    return std::ranges::any_of(estimate.notes, [&text](const std::string& note) {
+      return note.find(text) != std::string::npos;
+    });
+  };
+  QVERIFY(is_told("are guesses"));
+  QVERIFY(!is_told("nan"));
 }
 
 void DisparityRangeTest::foundRange_ofGridTooLargeIsRefused() {

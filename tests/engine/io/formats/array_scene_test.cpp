@@ -122,6 +122,21 @@ class ArraySceneTest : public QObject {
     QVERIFY(has_same_samples(scene, scene_));
   }
 
+  void statedGrid_isTakenOrRefused() {
+    ViewStack<std::uint8_t> flat = views().clone();  // no parallax tells
+    std::fill_n(flat.data(), flat.size(), std::uint8_t{90});
+    io::write_npy<std::uint8_t>(path("lf.npy"), lengths_of(flat, "vuyxc"), in_axes(flat, "vuyxc"));
+    const auto grid_read_as = [this](const std::string& grid) {
+      io::OpenOptions options;
+      options.grid = grid;
+      return io::open_scene(path("lf.npy"), options, Progress(1)).light_field->grid();
+    };
+
+    QVERIFY(grid_read_as("5x7") == (GridShape{5, 7}));
+    QVERIFY(grid_read_as("7x5") == (GridShape{7, 5}));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, (void)grid_read_as("5x5"));
+  }
+
   void statedAxes_areTaken() {
     io::write_npy<std::uint8_t>(path("lf.npy"), lengths_of(views(), "ycvxu"),
                                 in_axes(views(), "ycvxu"));

@@ -93,19 +93,22 @@ class ResultTest : public QObject {
     out.write(name, {io::Hdf5Shape(shape.size(), 0), shape}, values.data());
     if (statement == "MATLAB_class") out.set_ascii(name, "MATLAB_class", "single");
     out.close();
-    if (statement == "DIMENSION_LABELS") label_dimensions(target.temporary(), name);
+    if (statement == "DIMENSION_LABELS") list_axes(target.temporary(), name, "DIMENSION_LABELS");
+    if (statement == "list of axes") list_axes(target.temporary(), name, "axes");
     if (statement == "DIMENSION_LIST") attach_scales(target.temporary(), name);
     target.commit();
   }
-  static void label_dimensions(const std::filesystem::path& file, const std::string& name) {
+  static void list_axes(const std::filesystem::path& file, const std::string& name,
+                        const char* as_attribute) {
     const hid_t id = H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
     const hid_t dataset = H5Dopen2(id, name.c_str(), H5P_DEFAULT);
     const hid_t type = H5Tcopy(H5T_C_S1);
     H5Tset_size(type, H5T_VARIABLE);
     const hsize_t count = 2;
     const hid_t space = H5Screate_simple(1, &count, nullptr);
+    if (H5Aexists(dataset, as_attribute) > 0) H5Adelete(dataset, as_attribute);
     const hid_t attribute =
-        H5Acreate2(dataset, "DIMENSION_LABELS", type, space, H5P_DEFAULT, H5P_DEFAULT);
+        H5Acreate2(dataset, as_attribute, type, space, H5P_DEFAULT, H5P_DEFAULT);
     const char* const labels[] = {"columns", "rows"};
     QVERIFY(H5Awrite(attribute, type, labels) >= 0);
     H5Aclose(attribute);
@@ -417,6 +420,8 @@ class ResultTest : public QObject {
     QTest::addColumn<bool>("is_exchanged");
     QTest::newRow("none") << "" << false;
     QTest::newRow("axes") << "axes" << true;
+    QTest::newRow("words") << "width,height" << true;
+    QTest::newRow("list") << "list of axes" << true;
     QTest::newRow("MATLAB") << "MATLAB_class" << true;
     QTest::newRow("labels of dimensions") << "DIMENSION_LABELS" << true;
     QTest::newRow("scales of dimensions") << "DIMENSION_LIST" << true;
@@ -436,6 +441,23 @@ class ResultTest : public QObject {
       QCOMPARE(is_exchanged ? map.at(2, 1) : map.at(1, 2), 5.0F);
       QCOMPARE(is_exchanged ? map.at(0, 1) : map.at(1, 0), 3.0F);
     }
+  }
+
+  void wholeNumbers_areAMapByTheirName() {
+    const auto write_as = [this](const std::string& name) {
+      io::AtomicFile target(path("whole.h5"));
+      io::Hdf5Output out(target);
+      out.add_dataset<std::int32_t>(name, {2, 2}, "", "");
+      const std::vector<std::int32_t> values{50, -125, 0, 100};
+      out.write(name, {{0, 0}, {2, 2}}, values.data());
+      out.close();
+      target.commit();
+    };
+    write_as("disp_hundredths");
+    const Estimate read = io::read_result(path("whole.h5"), kGrid);
+    QCOMPARE(read.field.disparity.view(kGrid.center()).at(0, 1), -125.0F);
+    write_as("classes");
+    QVERIFY_THROWS_EXCEPTION(IoError, (void)io::read_result(path("whole.h5"), kGrid));
   }
 
   /// As netCDF and xarray write them.
