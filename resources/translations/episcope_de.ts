@@ -8329,7 +8329,7 @@ s</translation>
     </message>
     <message>
         <source>reading ground truth</source>
-        <translation>Ground Truth wird gelesen</translation>
+        <translation>Referenz wird gelesen</translation>
     </message>
 </context>
 <context>
@@ -8572,7 +8572,7 @@ s</translation>
     </message>
     <message>
         <source>with scribbles: %1</source>
-        <translation>mit Scribbles: %1</translation>
+        <translation>mit Strichen: %1</translation>
     </message>
     <message>
         <source>with labels: %1</source>
@@ -9483,7 +9483,7 @@ s</translation>
     </message>
     <message>
         <source>ground truth: %1</source>
-        <translation>Ground Truth: %1</translation>
+        <translation>Referenz: %1</translation>
     </message>
 </context>
 <context>

@@ -24,6 +24,7 @@ namespace episcope {
 namespace {
 
 constexpr int kSettingsHeight = 170;
+constexpr int kLeastSettingsHeight = 130;
 
 }  // namespace
 
@@ -104,7 +105,7 @@ QWidget* SegmentPanel::makeSettings() {
   settings_->setFrameShape(QFrame::NoFrame);
   settings_->setWidgetResizable(true);
   settings_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  settings_->setMinimumHeight(kSettingsHeight / 2);  // rather than a window beyond the screen
+  settings_->setMinimumHeight(kLeastSettingsHeight);  // rather than a window beyond the screen
   settings_->setMaximumHeight(kSettingsHeight);
   settings_->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Preferred);
   settings_->setWidget(content);

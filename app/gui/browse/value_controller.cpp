@@ -144,7 +144,7 @@ QStringList ValueController::labelsAt(PixelIndex pixel) const {
     const bool has_name = found != known.end() && !found->name.empty();
     // Without a name, an id of its own: it need not be that of a label here.
     if (id > 0) {
-      texts << tr("ground truth: %1")
+      texts << tr("true label %1")
                    .arg(has_name ? QString::fromStdString(found->name) : QString::number(id));
     }
   }

@@ -431,8 +431,8 @@ ImportedLabels strokes_of_numbers(std::vector<ViewPicture>& pictures, const Labe
   if (ground.empty() && census.transparent == 0) {
     const auto& [id, count] =
         *std::ranges::max_element(census.counts, {}, [](const auto& one) { return one.second; });
-    unpainted += fmt::format("; if {} ({}) means that none is, ignore that id", id,
-                             share_text(count, census.all()));
+    unpainted +=
+        fmt::format("; ignore {} ({}) if it stands for none", id, share_text(count, census.all()));
   }
   strokes.notes.push_back(path.string() + ": " + unpainted);
   return strokes;

@@ -327,7 +327,7 @@ void AnnotateTest::statusBar_namesTheLabelsUnderTheCursor() {
 
   const auto text = [&f] { return f.window.findChild<ValueBar*>()->text(); };
   QTRY_VERIFY2(text().contains("segment " + name + " ("), qPrintable(text()));
-  QVERIFY2(text().contains("ground truth: "), qPrintable(text()));
+  QVERIFY2(text().contains("true label "), qPrintable(text()));
   f.drag({50, 40}, {50, 60});
   f.move({50, 50});
   QTRY_VERIFY2(text().contains("painted "), qPrintable(text()));
