@@ -5,7 +5,7 @@
 #include "engine/core/light_field.h"
 #include "engine/core/progress.h"
 #include "engine/core/scene.h"
-#include "engine/io/models/map_reading.h"
+#include "engine/io/models/better_reading.h"
 #include "engine/io/models/open_options.h"
 
 #include <nlohmann/json_fwd.hpp>

@@ -90,7 +90,7 @@ class TimeBar : public QWidget {
 struct SceneItem {
   QString path;  ///< Path to open; unique.
   QString name;
-  QString form;        ///< "archive"
+  QString form;        ///< "2013 archive"
   QString shape;       ///< "9×9 · 512×512 RGB"; empty = unknown.
   QStringList parts;   ///< "disparity of all views", "labels", "2 results".
   QString problem;     ///< Why it cannot be opened; empty = it can.

@@ -105,6 +105,25 @@ QString text_of(const std::string& text) {
   return QString::fromStdString(text);
 }
 
+/// What a user calls the form that a reader reads; its id if it has no other name.
+QString form_text(const std::string& reader) {
+  const std::pair<const char*, QString> titles[] = {
+      {"archive", CollectionController::tr("2013 archive")},
+      {"benchmark2016", CollectionController::tr("2016 benchmark")},
+      {"image_grid", CollectionController::tr("images")},
+      {"mosaic", CollectionController::tr("views in one picture")},
+      {"sequence", CollectionController::tr("sequence")},
+      {"frames", CollectionController::tr("pages or film")},
+      {"hdf5", "HDF5"},
+      {"matlab", "MATLAB"},
+      {"numpy", "NumPy"},
+      {"blender", "Blender"}};
+  for (const auto& [id, title] : titles) {
+    if (reader == id) return title;
+  }
+  return text_of(reader);
+}
+
 QString shape_text(const io::SceneProbe& probe) {
   QStringList parts;
   if (probe.frames > 0) {
@@ -126,8 +145,8 @@ SceneItem item_of(const io::CollectionEntry& entry) {
   SceneItem item;
   item.path = text_of(entry.path.string());
   item.name = text_of(entry.name);
-  item.form =
-      entry.problem.empty() ? text_of(entry.reader) : CollectionController::tr("cannot be opened");
+  item.form = entry.problem.empty() ? form_text(entry.reader)
+                                    : CollectionController::tr("cannot be opened");
   item.shape = shape_text(probe);
   item.has_truth = !probe.truth.empty();
   if (item.has_truth) item.parts += text_of(probe.truth);

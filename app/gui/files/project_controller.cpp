@@ -395,6 +395,10 @@ void ProjectGuard::ask(Leaving what, const Continue& go_on) {
                        .text = sentence(lost),
                        .buttons = (has_unsaved ? QMessageBox::SaveAll : QMessageBox::NoButton) |
                                   QMessageBox::Discard | QMessageBox::Cancel});
+  if (!has_unsaved) {
+    question_->button(QMessageBox::Discard)
+        ->setText(what == Leaving::Session ? tr("Quit anyway") : tr("Close anyway"));
+  }
   question_->setDefaultButton(has_unsaved ? QMessageBox::SaveAll : QMessageBox::Cancel);
   connect(question_, &QMessageBox::buttonClicked, this,
           [this, box = question_.data(), what, go_on](QAbstractButton* button) {

@@ -4,7 +4,7 @@
 #include "app/session/session.h"
 #include "app/session/sweep.h"
 #include "app/session/user_folders.h"
-#include "engine/io/models/map_reading.h"
+#include "engine/io/models/better_reading.h"
 
 #include <QObject>
 #include <QString>

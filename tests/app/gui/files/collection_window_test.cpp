@@ -76,7 +76,7 @@ void CollectionWindowTest::collection_isListedWithThumbnails() {
   QCOMPARE(f.canvas()->accessibleDescription(), QString("Choose a scene in the list."));
   QCOMPARE(names_of(f), QStringList({"one", "three", "two"}));
   const QModelIndex first = list_of(f)->model()->index(0, 0);
-  QCOMPARE(first.data(SceneList::kForm).toString(), QString("archive"));
+  QCOMPARE(first.data(SceneList::kForm).toString(), QString("2013 archive"));
   QTRY_VERIFY_WITH_TIMEOUT(!first.data(Qt::DecorationRole).value<QImage>().isNull(),
                            kScenePatience);
   QVERIFY(!f.window.bench().session.scene());

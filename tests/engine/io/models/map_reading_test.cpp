@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/models/map_reading.h"
 #include "engine/core/error.h"
+#include "engine/io/models/better_reading.h"
 #include "tests/engine/io/synthetic_scene.h"
 #include "tests/test_main.h"
 
