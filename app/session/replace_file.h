@@ -35,8 +35,9 @@ struct IntendedRun {
 };
 
 /// Refuses to replace anything but a result file, and one of another method, other parameters,
-/// another light field, another reading of it or of more views unless that is asked for. Parameters that the file
-/// does not know count as their default. Throws IoError, which says `how` to ask for it.
+/// another light field, another reading of it or more views unless that is asked for. Parameters
+/// that the file does not know count as their default. Throws IoError, which says `how` to ask for
+/// it.
 void check_result_output(const std::filesystem::path& path, const IntendedRun& run,
                          Overwrite overwrite, const std::string& how = kByOption);
 

@@ -189,7 +189,7 @@ Estimate read_result_of(const LightField& light_field, const fs::path& path,
   require_upright(estimate, light_field, path);
   remove_padding_of(estimate, light_field);
   require_no_padding(estimate, light_field, path);
-  if (!io::is_result_file(path) && reading.border_px == 0) find_border_of(estimate, light_field);
+  if (!io::is_result_file(path) && estimate.border_px == 0) find_border_of(estimate, light_field);
   return estimate;
 }
 
@@ -201,7 +201,7 @@ Estimate result_from_maps(const LightField& light_field, DisparityField maps,
   io::mark_invalid(estimate.field);
   io::apply_reading(reading, &light_field, estimate);
   remove_padding_of(estimate, light_field);
-  if (reading.border_px == 0) find_border_of(estimate, light_field);
+  if (estimate.border_px == 0) find_border_of(estimate, light_field);
   return estimate;
 }
 

@@ -135,7 +135,7 @@ struct KeptLabels {
   std::uint64_t strokes = 0;     ///< `hash_of` the strokes that it was learnt from.
   std::filesystem::path file{};  ///< That keeps it for the project; empty = none yet.
   bool is_saved = false;         ///< A file of the user's holds it.
-  bool is_imported = false;      ///< Nothing that was painted here gives it again.
+  bool is_imported = false;      ///< Or read from a project: painting need not give it again.
 
   [[nodiscard]] bool empty() const { return !labeling && file.empty(); }
   /// Whether all views are in memory, which take long to segment.

@@ -1347,6 +1347,30 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <source>Collection…</source>
         <translation>Sammlung…</translation>
     </message>
+    <message>
+        <source>2013 archive</source>
+        <translation>Archiv von 2013</translation>
+    </message>
+    <message>
+        <source>2016 benchmark</source>
+        <translation>Benchmark von 2016</translation>
+    </message>
+    <message>
+        <source>images</source>
+        <translation>Bilder</translation>
+    </message>
+    <message>
+        <source>views in one picture</source>
+        <translation>Ansichten in einem Bild</translation>
+    </message>
+    <message>
+        <source>sequence</source>
+        <translation>Folge</translation>
+    </message>
+    <message>
+        <source>pages or film</source>
+        <translation>Seiten oder Film</translation>
+    </message>
 </context>
 <context>
     <name>episcope::ColorBar</name>
@@ -5928,8 +5952,16 @@ s</translation>
         <translation>Es wird noch gerechnet</translation>
     </message>
     <message>
-        <source>imported labels</source>
-        <translation>importierte Labels</translation>
+        <source>labels of one view</source>
+        <translation>Labels einer Ansicht</translation>
+    </message>
+    <message>
+        <source>Quit anyway</source>
+        <translation>Trotzdem beenden</translation>
+    </message>
+    <message>
+        <source>Close anyway</source>
+        <translation>Trotzdem schließen</translation>
     </message>
 </context>
 <context>
@@ -9482,8 +9514,8 @@ s</translation>
         <translation>Segment %1</translation>
     </message>
     <message>
-        <source>ground truth: %1</source>
-        <translation>Referenz: %1</translation>
+        <source>true label %1</source>
+        <translation>wahres Label %1</translation>
     </message>
 </context>
 <context>

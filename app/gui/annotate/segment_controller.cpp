@@ -536,6 +536,7 @@ void SegmentController::restore() {
           if (scene != session_.generation() || session_.labels().labeling) return;
           KeptLabels read = session_.labels();
           read.labeling = labeling;
+          read.is_imported = true;
           session_.set_labels(scene, read);
           adopt(read);
         });

@@ -345,7 +345,8 @@ void ProjectGuard::addResults(const OpenScene& scene, Loss& loss) const {
   // What was read from a file does not say how long it took.
   const double seconds = labels.labeling ? labels.labeling->seconds : 0;
   if (!is_worth_it(seconds > 0 ? seconds : worth_keeping_s_)) return;
-  add(labels.is_imported ? tr("imported labels") : tr("labels of all views"));
+  add(labels.covers_many() || is_on_disk_alone ? tr("labels of all views")
+                                               : tr("labels of one view"));
 }
 
 int ProjectGuard::runningCount() const {

@@ -229,11 +229,15 @@ MapTarget target_of(const MapReading& reading, const LightField* light_field, in
   MapTarget target{height, width};
   if (!light_field) return target;
   target.camera = light_field->info().camera;
-  if (reading.border_px == 0 && reading.crop == MapCrop::None && !reading.is_resized) {
-    return target;
-  }
+  const bool fills_views = reading.border_px > 0 || reading.moved_px() > 0 ||
+                           reading.crop != MapCrop::None || reading.is_resized;
+  if (!fills_views) return target;
   target.height = light_field->height();
   target.width = light_field->width();
+  if (reading.moved_px() > 0 && reading.border_px == 0 && !reading.is_resized) {
+    target.above = std::min(0, height - target.height) / 2;
+    target.left = std::min(0, width - target.width) / 2;
+  }
   if (reading.crop == MapCrop::None) return target;
   if (height < target.height || width < target.width) {
     throw InvalidInput(
@@ -269,7 +273,8 @@ void apply_reading(const MapReading& reading, const LightField* light_field, Est
   }
   estimate.field = read_maps_so(estimate.field, reading, target);
   if (!estimate.second.empty()) estimate.second = read_maps_so(estimate.second, reading, target);
-  estimate.border_px = reading.border_px;
+  const int bare = reading.moved_px() > 0 ? -std::min(target.above, target.left) : 0;
+  estimate.border_px = reading.border_px + reading.moved_px() + bare;
 }
 
 }  // namespace episcope::io

@@ -6,7 +6,8 @@
 #include "engine/core/light_field.h"
 #include "engine/core/schema.h"
 
-#include <optional>
+#include <algorithm>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -35,14 +36,19 @@ struct MapReading {
   /// The maps lack so many pixels at each side of the views: pixel (0, 0) of a map is pixel
   /// (`border_px`, `border_px`) of a view. Only the middle of the views is judged.
   int border_px = 0;
-  int down_px = 0;               ///< The maps are moved down by so many pixels,
-  int right_px = 0;              ///< and to the right; what leaves the views is lost.
+  /// The maps are moved down by so many pixels, and to the right; maps that are smaller than the
+  /// views from the middle of these. What leaves the views is lost, and a border as wide as the
+  /// part of the views that is left bare is not judged.
+  int down_px = 0;
+  int right_px = 0;
   MapCrop crop = MapCrop::None;  ///< Maps that are larger than the views, as networks pad them.
   /// Stored values, between commas, that stand for no estimate: "-1" or "0,9999". Empty = none.
   std::string missing = {};
   /// Maps have another resolution: their nearest pixels fill the views.
   bool is_resized = false;
 
+  /// Pixels that maps are moved, along rows or columns, whichever are more.
+  [[nodiscard]] int moved_px() const { return std::max(std::abs(down_px), std::abs(right_px)); }
   friend bool operator==(const MapReading&, const MapReading&) = default;
 };
 

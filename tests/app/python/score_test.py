@@ -71,6 +71,17 @@ def test_map_is_read_as_the_advice_says(scene, result, as_file, tmp_path):
         episcope.score(stored, scene, map_turn=True)
 
 
+@pytest.mark.parametrize("first", [0, 2, 8])
+def test_part_of_a_map_is_found_its_place(scene, first):
+    truth = scene.truth[2, 2]
+    part = truth[first : first + 56, first : first + 56].copy()  # 4 is the middle
+    scores = episcope.score(part, scene)
+    assert scores["mse_100"] > 1
+    found = scores["better_reading"]["reading"]
+    assert found == {"map-down": first - 4, "map-right": first - 4}
+    assert episcope.score(part, scene, **found)["mse_100"] < 1e-6
+
+
 def test_map_on_its_side_is_told():
     oblong = episcope.demo("objects?size=64x48&grid=3")
     turned = oblong.truth[1, 1].T.copy()

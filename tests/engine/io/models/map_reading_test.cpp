@@ -161,6 +161,7 @@ class MapReadingTest : public QObject {
     const DisparityView put = moved.field.view(center());
     QVERIFY(std::abs(put.disparity.at(32, 32) - uneven(32, 32)) < 0.03);
     QVERIFY(!put.is_valid(down > 0 ? 0 : kSide - 1, 32));
+    QCOMPARE(moved.border_px, std::max(std::abs(down), std::abs(right)));
   }
 
   void honestMaps_areLeftAlone_data() {
