@@ -111,13 +111,22 @@ int corner_border(const DisparityView& map) {
   return rows == columns && rows % 2 == 0 && rows <= widest ? rows / 2 : 0;
 }
 
-/// Maps that are off their place.
-void add_moved(std::vector<MapReading>& readings) {
+/// The move of maps that are off their place which has the least error.
+template <class ErrorOf>
+MapReading best_move(ErrorOf error_of) {
+  MapReading best;
+  double least = std::numeric_limits<double>::infinity();
   for (int down = -kFarthestOff; down <= kFarthestOff; ++down) {
     for (int right = -kFarthestOff; right <= kFarthestOff; ++right) {
-      if (down != 0 || right != 0) readings.push_back({.down_px = down, .right_px = right});
+      if (down == 0 && right == 0) continue;
+      const MapReading moved{.down_px = down, .right_px = right};
+      const double error = error_of(moved);
+      if (error >= least) continue;
+      least = error;
+      best = moved;
     }
   }
+  return best;
 }
 
 /// What may be meant, the readings that change least first; the map as read is not among them.
@@ -129,7 +138,6 @@ std::vector<MapReading> possible_readings(const DisparityView& map, const LightF
   std::vector<MapReading> readings(turned.begin() + 1, turned.end());
   readings.insert(readings.end(), valued.begin() + 1, valued.end());
   if (const int border = corner_border(map)) readings.push_back({.border_px = border});
-  if (has_truth) add_moved(readings);
   for (std::size_t i = 1; i < turned.size(); ++i) {
     for (std::size_t k = 1; k < valued.size(); ++k) {
       const bool is_tried = has_truth || valued[k] == MapReading{.scale = -1};
@@ -289,7 +297,9 @@ std::optional<MapReading> found_by_truth(const DisparityView& map, const MapEvid
     return is_moved && error > most_moved ? std::numeric_limits<double>::infinity() : error;
   };
   const double limit = kFarBetterByTruth * std::min(error_of({}), truth.constant_error());
-  return least_reading(possible_readings(map, evidence.light_field, true), limit, error_of);
+  std::vector<MapReading> readings = possible_readings(map, evidence.light_field, true);
+  readings.push_back(best_move(error_of));
+  return least_reading(readings, limit, error_of);
 }
 
 std::optional<MapReading> found_by_views(const DisparityView& map, const MapEvidence& evidence,
