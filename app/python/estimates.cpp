@@ -98,12 +98,11 @@ void save_estimate(const FoundEstimate& found, const py::object& given_path, con
   run_job(py::none(), 0, [&](const Progress& job) {
     if (*form == MapForm::Result) {
       check_result_output(path,
-                          {estimate.method,
-                           estimate.parameters,
-                           found.of.input,
-                           estimate.reading.options,
-                           {},
-                           estimate.field.disparity.grid().count() == 1},
+                          {.method = estimate.method,
+                           .parameters = estimate.parameters,
+                           .input = found.of.input,
+                           .reading = estimate.reading.options,
+                           .is_of_one_view = estimate.field.disparity.grid().count() == 1},
                           overwrite, kByArgument);
       return save_result(path, estimate, found.of.input, job);
     }
@@ -113,17 +112,6 @@ void save_estimate(const FoundEstimate& found, const py::object& given_path, con
     };
     write_output(path, overwrite, write, kByArgument);
   });
-}
-
-/// Refuses maps of another program that lie on their side.
-void require_upright(const DisparityField& field, const LightField& lf,
-                     const io::MapReading& reading) {
-  const int height = field.disparity.height(), width = field.disparity.width();
-  const bool lies = height == lf.width() && width == lf.height() && height != width;
-  if (!lies || reading.is_transposed) return;
-  throw InvalidInput(
-      "rows and columns of the maps are exchanged for those of the views; transpose them, or give "
-      "map_transpose=True");
 }
 
 /// What is judged: a result, the name of its file, or an array of maps, read so.
@@ -144,7 +132,11 @@ EstimatePtr judged_estimate(const py::object& map, const LightField& lf,
   }
   DisparityField field;
   field.disparity = maps_from(numbers_from<float>(map, "the maps"), lf.grid(), "the maps");
-  require_upright(field, lf, reading);
+  if (!reading.is_transposed && are_on_their_side(field.disparity, lf)) {
+    throw InvalidInput(
+        "rows and columns of the maps are exchanged for those of the views; transpose them, or "
+        "give map_transpose=True");
+  }
   return std::make_shared<const Estimate>(result_from_maps(lf, std::move(field), "array", reading));
 }
 

@@ -161,6 +161,13 @@ bool can_judge(const Estimate& estimate, const Scene& scene, ViewIndex view) {
   return truth.field.contains(view) && estimate.field.contains(view);
 }
 
+std::string estimated_truth_note(const Scene& scene) {
+  const auto& estimated = scene.truth->estimated;
+  return estimated ? "the truth of " + scene.light_field->info().name +
+                         " is no ground truth: it was " + estimated_text(*estimated)
+                   : std::string();
+}
+
 Evaluation judge(const Estimate& estimate, const Scene& scene, EvaluationOptions options,
                  std::optional<ViewIndex> asked_view) {
   const GroundTruth& truth = *scene.truth;
@@ -184,9 +191,8 @@ Evaluation judge(const Estimate& estimate, const Scene& scene, EvaluationOptions
     evaluation = evaluate(estimate.field.view(view), truth.field.view(view),
                           is_center ? truth.regions : no_regions, options);
   }
-  if (truth.estimated) {
-    evaluation.notes.push_back("the truth of " + light_field.info().name +
-                               " is no ground truth: it was " + estimated_text(*truth.estimated));
+  if (std::string note = estimated_truth_note(scene); !note.empty()) {
+    evaluation.notes.push_back(std::move(note));
   }
   if (options.protocol == Protocol::Benchmark2016 && estimate.seconds > 0) {
     evaluation.metrics.emplace_back("runtime_log", std::log10(estimate.seconds));

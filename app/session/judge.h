@@ -29,6 +29,9 @@ using EvaluationPtr = std::shared_ptr<const Evaluation>;
 /// Whether scene and result have what `judge` compares in this view.
 [[nodiscard]] bool can_judge(const Estimate& estimate, const Scene& scene, ViewIndex view);
 
+/// A sentence for truth that was estimated; else empty.
+[[nodiscard]] std::string estimated_truth_note(const Scene& scene);
+
 /// The error of a result in one view, `judged_view` if none is given. If result and truth have two
 /// layers, keys are as in `layered_metrics` and maps show the foreground. Leaves out pixels that
 /// the light field does not show (LightField::valid), the border that maps of other programs lack

@@ -15,6 +15,7 @@
 #include "engine/io/base/hdf5_file.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/base/image_header.h"
+#include "engine/io/base/json.h"
 #include "engine/io/base/npy.h"
 #include "engine/io/formats/array_reader.h"
 #include "engine/io/formats/mosaic_reader.h"
@@ -98,6 +99,11 @@ std::string size_text(int first, int second) {
 
 }  // namespace
 
+bool are_on_their_side(const ViewStack<float>& maps, const LightField& light_field) {
+  const int height = light_field.height(), width = light_field.width();
+  return height != width && maps.height() == width && maps.width() == height;
+}
+
 bool names_result(const std::string& path) {
   std::error_code ignored;
   if (!builtin_scene_id(path).empty() || !fs::is_regular_file(path, ignored)) return false;
@@ -114,10 +120,10 @@ namespace {
 void require_upright(const Estimate& estimate, const LightField& light_field,
                      const fs::path& path) {
   const auto& map = estimate.field.disparity;
-  const int height = light_field.height(), width = light_field.width();
-  if (height == width || map.height() != width || map.width() != height) return;
+  if (!are_on_their_side(map, light_field)) return;
   throw IoError(path, "the maps have " + size_text(map.width(), map.height()) +
-                          " pixels, but the views " + size_text(width, height) +
+                          " pixels, but the views " +
+                          size_text(light_field.width(), light_field.height()) +
                           ": rows and columns are exchanged; add --map-transpose");
 }
 

@@ -26,6 +26,9 @@ namespace episcope {
 /// samples or true depth that is no result file. Throws IoError if that is damaged.
 [[nodiscard]] bool names_light_field_only(const std::string& path);
 
+/// Whether maps have as many rows as the views have columns, and the other way round.
+[[nodiscard]] bool are_on_their_side(const ViewStack<float>& maps, const LightField& light_field);
+
 /// Reads a result of this light field, as a user says (`reading`) beyond what its file states.
 /// Throws IoError, also for a file that holds a light field or depth, which would else be judged as
 /// disparity, and for maps whose rows and columns are exchanged for those of the views;

@@ -249,12 +249,11 @@ class Runner {
     if (!is_map) {
       check_hdf5_output("estimate", task.output);
       check_result_output(task.output,
-                          {request_.estimator->info.id,
-                           request_.parameters.values(),
-                           from_.shown(task.input),
-                           io::given_options(options_of(task)),
-                           {},
-                           options_.views == ViewSelection::Center},
+                          {.method = request_.estimator->info.id,
+                           .parameters = request_.parameters.values(),
+                           .input = from_.shown(task.input),
+                           .reading = io::given_options(options_of(task)),
+                           .is_of_one_view = options_.views == ViewSelection::Center},
                           request_.overwrite);
     } else if (!request_.is_submission) {
       check_output_file(task.output);

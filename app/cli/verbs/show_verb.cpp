@@ -179,8 +179,7 @@ void note_doubts_of_truth(const std::string& truth, const Scene& scene, Job& job
   for (const std::string& warning : truth_warnings(scene.convention)) {
     job.note(truth + ": " + warning);
   }
-  if (!scene.truth->estimated) return;
-  job.note(truth + " is no ground truth: it was " + estimated_text(*scene.truth->estimated));
+  if (const std::string note = estimated_truth_note(scene); !note.empty()) job.note(note);
 }
 
 void load_result(const ShownMap& shown, const ReadOptions& read, LoadedMap& loaded, Job& job) {

@@ -107,9 +107,10 @@ void ValueController::show() {
 
 namespace {
 
-QString name_in(const std::vector<LabelInfo>& infos, int id) {
+/// `unnamed`: of a label without a name, %1 is its id.
+QString name_in(const std::vector<LabelInfo>& infos, int id, const QString& unnamed) {
   const auto found = std::ranges::find(infos, id, &LabelInfo::id);
-  return found == infos.end() || found->name.empty() ? ValueController::tr("label %1").arg(id)
+  return found == infos.end() || found->name.empty() ? unnamed.arg(id)
                                                      : QString::fromStdString(found->name);
 }
 
@@ -122,12 +123,12 @@ QStringList ValueController::labelsAt(PixelIndex pixel) const {
   const std::vector<LabelInfo>& infos = document->labels().labels();
   QStringList texts;
   if (const int painted = document->scribbles().label_at(view, pixel)) {
-    texts << tr("painted %1").arg(name_in(infos, painted));
+    texts << tr("painted %1").arg(name_in(infos, painted, tr("label %1")));
   }
   if (const auto source = bench_.overlay.sourceOf({render::Quantity::Segmentation})) {
     const Labeling& labeling = *source->labeling;
     const int id = labeling.labels.view(view).at(pixel.y, pixel.x);
-    if (id > 0) texts << tr("segment %1").arg(name_in(infos, id));
+    if (id > 0) texts << tr("segment %1").arg(name_in(infos, id, tr("label %1")));
     const auto& ids = labeling.probabilities.ids;
     const auto layer = std::ranges::find(ids, id);
     if (labeling.probabilities.contains(view) && layer != ids.end()) {
@@ -139,14 +140,7 @@ QStringList ValueController::labelsAt(PixelIndex pixel) const {
   const TrueLabelsPtr& truth = session_.true_labels();
   if (!texts.isEmpty() && truth && truth->contains(view)) {
     const int id = truth->view(view).at(pixel.y, pixel.x);
-    const auto& known = session_.true_label_infos();
-    const auto found = std::ranges::find(known, id, &LabelInfo::id);
-    const bool has_name = found != known.end() && !found->name.empty();
-    // Without a name, an id of its own: it need not be that of a label here.
-    if (id > 0) {
-      texts << tr("true label %1")
-                   .arg(has_name ? QString::fromStdString(found->name) : QString::number(id));
-    }
+    if (id > 0) texts << tr("true label %1").arg(name_in(session_.true_label_infos(), id, "%1"));
   }
   return texts;
 }

@@ -171,7 +171,7 @@ void ProjectController::saveTo(const QString& path, std::function<void()> then) 
   ask_about_changed_file(&bench_.window, path,
                          {.overwrite = [this, path, then] { write(path, then); },
                           .elsewhere = [this, then] { saveAs(then); },
-                          .reload = [this, path] { read(path, nullptr); },
+                          .reload = [this, path] { read(path); },
                           .of_reloading = tr("Reloading replaces the open light fields.")});
 }
 
@@ -329,15 +329,13 @@ void ProjectGuard::addResults(const OpenScene& scene, Loss& loss) const {
   const auto add = [&](const QString& what) {
     loss.results.push_back(job_title(what, scene).toStdString());
   };
-  std::vector<const EstimateEntry*> unsaved;
   double all_seconds = 0;
   for (const EstimateEntry& entry : scene.estimates) {
     if (entry.is_saved) continue;
-    unsaved.push_back(&entry);
     all_seconds += entry.estimate ? entry.estimate->seconds : worth_keeping_s_;
   }
-  for (const EstimateEntry* entry : unsaved) {
-    if (is_worth_it(all_seconds)) add(QString::fromStdString(entry->name));
+  for (const EstimateEntry& entry : scene.estimates) {
+    if (!entry.is_saved && is_worth_it(all_seconds)) add(QString::fromStdString(entry.name));
   }
   const KeptLabels& labels = scene.labels;
   const bool is_on_disk_alone = !labels.labeling && !labels.file.empty();

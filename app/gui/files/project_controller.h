@@ -32,7 +32,7 @@ class ProjectController : public QObject {
 
   /// Opens a project in place of everything open, once nothing would be lost.
   /// Calls `then` (may be null) once the project is open.
-  void open(const QString& path, const std::function<void()>& then);
+  void open(const QString& path, const std::function<void()>& then = nullptr);
   /// Saves to the project's file, or asks for one. Calls `then` on success.
   void save(std::function<void()> then = nullptr);
   void saveAs(std::function<void()> then = nullptr);
@@ -45,7 +45,7 @@ class ProjectController : public QObject {
 
  private:
   void addCommands();
-  void read(const QString& path, const std::function<void()>& then);
+  void read(const QString& path, const std::function<void()>& then = nullptr);
   void write(const QString& path, std::function<void()> then);
   void noteSaved(const QString& path, const Project& written);
   void setFile(const QString& path);

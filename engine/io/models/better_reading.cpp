@@ -38,7 +38,7 @@ constexpr double kLeastMissing = 0.001;
 constexpr double kFarBeyond = 0.5;
 constexpr double kFarFromTruth = 4;
 constexpr float kUsualMissing[] = {0, -1};
-constexpr double kMostPoints = 10000;
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr int kRowStride = 4;     ///< Of the rows that are warped.
 constexpr int kFarthestOff = 16;  ///< Pixels that maps are looked for off their place.
 
@@ -111,24 +111,6 @@ int corner_border(const DisparityView& map) {
   return rows == columns && rows % 2 == 0 && rows <= widest ? rows / 2 : 0;
 }
 
-/// The move of maps that are off their place which has the least error.
-template <class ErrorOf>
-MapReading best_move(ErrorOf error_of) {
-  MapReading best;
-  double least = std::numeric_limits<double>::infinity();
-  for (int down = -kFarthestOff; down <= kFarthestOff; ++down) {
-    for (int right = -kFarthestOff; right <= kFarthestOff; ++right) {
-      if (down == 0 && right == 0) continue;
-      const MapReading moved{.down_px = down, .right_px = right};
-      const double error = error_of(moved);
-      if (error >= least) continue;
-      least = error;
-      best = moved;
-    }
-  }
-  return best;
-}
-
 /// What may be meant, the readings that change least first; the map as read is not among them.
 std::vector<MapReading> possible_readings(const DisparityView& map, const LightField& light_field,
                                           bool has_truth) {
@@ -150,68 +132,48 @@ std::vector<MapReading> possible_readings(const DisparityView& map, const LightF
 /// The truth at some pixels.
 class TruthPoints {
  public:
-  explicit TruthPoints(const DisparityView& truth) {
-    const ImageView<const float>& values = truth.disparity;
-    const double area = static_cast<double>(values.height) * values.width;
-    const int stride = std::max(1, static_cast<int>(std::sqrt(area / kMostPoints)));
-    std::vector<float> all;
-    for (int y = 0; y < values.height; y += stride) {
-      for (int x = 0; x < values.width; x += stride) {
-        if (!truth.is_valid(y, x)) continue;
-        points_.push_back({y, x, values.at(y, x)});
-        all.push_back(values.at(y, x));
-      }
-    }
-    if (all.empty()) return;
-    const float middle = quantile(all, 0.5);
-    for (const Point& point : points_) constant_error_ += std::abs(point.disparity - middle);
+  explicit TruthPoints(const DisparityView& truth) : points_(spread_points(truth)) {
+    if (points_.empty()) return;
+    std::vector<double> all;
+    for (const MapPoint& point : points_) all.push_back(point.disparity);
+    const double middle = quantile(all, 0.5);
+    for (const MapPoint& point : points_) constant_error_ += std::abs(point.disparity - middle);
     constant_error_ /= static_cast<double>(points_.size());
   }
 
   /// Mean absolute error of the map of one value that fits best.
   [[nodiscard]] double constant_error() const { return constant_error_; }
 
-  /// Mean absolute error by a reading; infinite if the map has values at few of the pixels.
+  /// Mean absolute error by a reading, from which `bias` is taken first; infinite if the map has
+  /// values at few of the pixels, or the error is `most` or more.
   [[nodiscard]] double error(const DisparityView& map, const MapReading& reading,
-                             const MapTarget& target) const {
-    return mean_error(errors(map, reading, target), 0);
+                             const MapTarget& target, double most = kInfinite,
+                             double bias = 0) const {
+    const auto all = static_cast<double>(points_.size());
+    double sum = 0, count = 0;
+    for (const MapPoint& point : points_) {
+      const float value = value_by(map, reading, target, point.y, point.x);
+      if (!std::isfinite(value)) continue;
+      sum += std::abs(value - point.disparity - bias);
+      if (sum >= most * all) return kInfinite;
+      count += 1;
+    }
+    const bool is_told = count > 0 && count >= kLeastCompared * all && sum < most * count;
+    return is_told ? sum / count : kInfinite;
   }
 
   /// The same of the map as it is, but for one value by which all of it is off.
   [[nodiscard]] double unbiased_error(const DisparityView& map, const MapTarget& target) const {
-    std::vector<float> all = errors(map, {}, target);
-    return all.empty() ? std::numeric_limits<double>::infinity()
-                       : mean_error(all, quantile(all, 0.5));
+    std::vector<double> all;
+    for (const MapPoint& point : points_) {
+      const float value = value_by(map, {}, target, point.y, point.x);
+      if (std::isfinite(value)) all.push_back(value - point.disparity);
+    }
+    return all.empty() ? kInfinite : error(map, {}, target, kInfinite, quantile(all, 0.5));
   }
 
  private:
-  [[nodiscard]] std::vector<float> errors(const DisparityView& map, const MapReading& reading,
-                                          const MapTarget& target) const {
-    std::vector<float> all;
-    all.reserve(points_.size());
-    for (const Point& point : points_) {
-      const float value = value_by(map, reading, target, point.y, point.x);
-      if (std::isfinite(value)) all.push_back(value - point.disparity);
-    }
-    return all;
-  }
-
-  [[nodiscard]] double mean_error(const std::vector<float>& all, float bias) const {
-    const auto count = static_cast<double>(all.size());
-    if (count == 0 || count < kLeastCompared * static_cast<double>(points_.size())) {
-      return std::numeric_limits<double>::infinity();
-    }
-    double sum = 0;
-    for (const float error : all) sum += std::abs(error - bias);
-    return sum / count;
-  }
-
-  struct Point {
-    int y = 0;
-    int x = 0;
-    float disparity = 0;
-  };
-  std::vector<Point> points_;
+  std::vector<MapPoint> points_;
   double constant_error_ = 0;
 };
 
@@ -286,19 +248,36 @@ std::optional<MapReading> least_reading(const std::vector<MapReading>& readings,
   return best;
 }
 
+/// The move of maps that are off their place which has the least error, if it is below `most`.
+std::optional<MapReading> best_move(const DisparityView& map, const TruthPoints& truth,
+                                    const MapTarget& target, double most) {
+  std::optional<MapReading> best;
+  for (int down = -kFarthestOff; down <= kFarthestOff; ++down) {
+    for (int right = -kFarthestOff; right <= kFarthestOff; ++right) {
+      if (down == 0 && right == 0) continue;
+      const MapReading moved{.down_px = down, .right_px = right};
+      const double error = truth.error(map, moved, target, most);
+      if (!(error < most)) continue;
+      most = error;
+      best = moved;
+    }
+  }
+  return best;
+}
+
 std::optional<MapReading> found_by_truth(const DisparityView& map, const MapEvidence& evidence,
                                          const MapTarget& target) {
   const TruthPoints truth(evidence.truth);
-  // On slanted surfaces, a map that is off by one value resembles one that is off its place.
-  const double most_moved = kFarBetterByTruth * truth.unbiased_error(map, target);
   const auto error_of = [&](const MapReading& reading) {
-    const double error = truth.error(map, reading, target);
-    const bool is_moved = reading.down_px != 0 || reading.right_px != 0;
-    return is_moved && error > most_moved ? std::numeric_limits<double>::infinity() : error;
+    return truth.error(map, reading, target);
   };
   const double limit = kFarBetterByTruth * std::min(error_of({}), truth.constant_error());
   std::vector<MapReading> readings = possible_readings(map, evidence.light_field, true);
-  readings.push_back(best_move(error_of));
+  // On slanted surfaces, a map that is off by one value resembles one that is off its place.
+  const double most_moved = kFarBetterByTruth * truth.unbiased_error(map, target);
+  if (const auto moved = best_move(map, truth, target, std::min(limit, most_moved))) {
+    readings.push_back(*moved);
+  }
   return least_reading(readings, limit, error_of);
 }
 

@@ -229,6 +229,20 @@ WarpErrors warp_errors(const LightField::Samples& samples, ViewIndex at,
   return {axis_errors(samples, at, true, disparity), axis_errors(samples, at, false, disparity)};
 }
 
+std::vector<MapPoint> spread_points(const DisparityView& map) {
+  constexpr double most = 10000;
+  const ImageView<const float>& values = map.disparity;
+  const double area = static_cast<double>(values.height) * values.width;
+  const int stride = std::max(1, static_cast<int>(std::sqrt(area / most)));
+  std::vector<MapPoint> points;
+  for (int y = 0; y < values.height; y += stride) {
+    for (int x = 0; x < values.width; x += stride) {
+      if (map.is_valid(y, x)) points.push_back({y, x, values.at(y, x)});
+    }
+  }
+  return points;
+}
+
 namespace {
 
 constexpr int kConstantSquare = 16;
@@ -240,27 +254,6 @@ constexpr double kDiffers = 0.25;       ///< px between the map and the constant
 constexpr double kPartOfRange = 0.125;  ///< of which that is more than this part of the range;
 constexpr double kLeastRange = 0.05;    ///< maps of less px are constants.
 constexpr float kLargestConstantError = 40;  ///< Grey levels; what is hidden counts no more.
-constexpr double kMostConstantPoints = 10000;
-
-struct Point {
-  int y = 0;
-  int x = 0;
-  double disparity = 0;
-};
-
-std::vector<Point> points_of(const DisparityView& map) {
-  const ImageView<const float>& values = map.disparity;
-  const double area = static_cast<double>(values.height) * values.width;
-  const int stride = std::max(1, static_cast<int>(std::sqrt(area / kMostConstantPoints)));
-  std::vector<Point> points;
-  for (int y = 0; y < values.height; y += stride) {
-    for (int x = 0; x < values.width; x += stride) {
-      const double value = values.at(y, x);
-      if (map.is_valid(y, x) && std::isfinite(value)) points.push_back({y, x, value});
-    }
-  }
-  return points;
-}
 
 /// The view and one next to it; `shift`: of disparity 1 in the neighbor, to lower coordinates.
 struct WarpedPair {
@@ -271,7 +264,7 @@ struct WarpedPair {
   float gain = 1;
 
   /// Negative outside of the picture.
-  [[nodiscard]] float moved(const Point& point, double disparity) const {
+  [[nodiscard]] float moved(const MapPoint& point, double disparity) const {
     const double place = (is_u ? point.x : point.y) - shift * disparity;
     const int last = (is_u ? there.width() : there.height()) - 1;
     if (!(place >= 0 && place < last)) return -1;
@@ -282,14 +275,14 @@ struct WarpedPair {
     return a + part * (b - a);
   }
   /// Likewise.
-  [[nodiscard]] float error(const Point& point, double disparity) const {
+  [[nodiscard]] float error(const MapPoint& point, double disparity) const {
     const float grey = moved(point, disparity);
     if (grey < 0) return -1;
     return std::min(kLargestConstantError, std::abs(here.at(point.y, point.x) - gain * grey));
   }
-  void even_out(const std::vector<Point>& points) {
+  void even_out(const std::vector<MapPoint>& points) {
     PairGain brightness;
-    for (const Point& point : points) {
+    for (const MapPoint& point : points) {
       brightness.add(here.at(point.y, point.x), moved(point, point.disparity));
     }
     gain = brightness.value();
@@ -313,15 +306,15 @@ std::vector<WarpedPair> pairs_of(const LightField::Samples& samples, ViewIndex a
   return pairs;
 }
 
-double best_constant(const std::vector<WarpedPair>& pairs, const std::vector<Point>& points) {
+double best_constant(const std::vector<WarpedPair>& pairs, const std::vector<MapPoint>& points) {
   double reach = 0;
-  for (const Point& point : points) reach = std::max(reach, std::abs(point.disparity));
+  for (const MapPoint& point : points) reach = std::max(reach, std::abs(point.disparity));
   std::pair<double, double> least{HUGE_VAL, 0};
   for (int step = -kSteps; step <= kSteps; ++step) {
     const double constant = reach * step / kSteps;
     double sum = 0, inside = 0;
     for (const WarpedPair& pair : pairs) {
-      for (const Point& point : points) {
+      for (const MapPoint& point : points) {
         const float error = pair.error(point, constant);
         if (error < 0) continue;
         sum += error;
@@ -335,9 +328,9 @@ double best_constant(const std::vector<WarpedPair>& pairs, const std::vector<Poi
 }
 
 /// Of 90 % of the points.
-double range_of(const std::vector<Point>& points) {
+double range_of(const std::vector<MapPoint>& points) {
   std::vector<float> values;
-  for (const Point& point : points) values.push_back(static_cast<float>(point.disparity));
+  for (const MapPoint& point : points) values.push_back(static_cast<float>(point.disparity));
   if (values.empty()) return 0;
   return quantile(values, 0.95) - quantile(values, 0.05);
 }
@@ -355,9 +348,9 @@ struct Constant {
   double differs = 0;
 };
 
-void add_pair(const WarpedPair& pair, const std::vector<Point>& points, const Constant& constant,
+void add_pair(const WarpedPair& pair, const std::vector<MapPoint>& points, const Constant& constant,
               Squares& squares) {
-  for (const Point& point : points) {
+  for (const MapPoint& point : points) {
     if (std::abs(point.disparity - constant.disparity) < constant.differs) continue;
     const float by_map = pair.error(point, point.disparity);
     const float by_constant = pair.error(point, constant.disparity);
@@ -394,7 +387,7 @@ bool ConstantComparison::is_better() const {
 
 ConstantComparison compare_with_constant(const LightField::Samples& samples, ViewIndex at,
                                          const DisparityView& disparity, const WarpErrors& errors) {
-  const std::vector<Point> points = points_of(disparity);
+  const std::vector<MapPoint> points = spread_points(disparity);
   const double range = range_of(points);
   if (range < kLeastRange) return {};
   const double differs = std::min(kDiffers, kPartOfRange * range);

@@ -7,6 +7,7 @@
 #include "engine/core/light_field.h"
 
 #include <array>
+#include <vector>
 
 namespace episcope::io {
 
@@ -48,6 +49,16 @@ struct WarpErrors {
 /// that differs by more than 2 % is evened out.
 [[nodiscard]] WarpErrors warp_errors(const LightField::Samples& samples, ViewIndex at,
                                      const DisparityView& disparity);
+
+/// A pixel of a map that has a value.
+struct MapPoint {
+  int y = 0;
+  int x = 0;
+  double disparity = 0;
+};
+
+/// About 10,000 of them, in equal steps over the map.
+[[nodiscard]] std::vector<MapPoint> spread_points(const DisparityView& map);
 
 /// How much better a map explains the neighbors of its view than a constant disparity does.
 struct ConstantComparison {
