@@ -18,7 +18,6 @@
 #include <algorithm>
 #include <iterator>
 #include <optional>
-#include <ranges>
 
 namespace episcope {
 namespace {
@@ -233,7 +232,8 @@ void Commands::fillMenus(QMenuBar& bar) const {
     made[info.menu] = menu;
   }
   // Submenus first: an empty one has no entry.
-  for (const MenuInfo& info : std::views::reverse(menus())) fillMenu(info.menu, made);
+  const std::span<const MenuInfo> all = menus();
+  for (auto info = all.rbegin(); info != all.rend(); ++info) fillMenu(info->menu, made);
 }
 
 void Commands::fillMenu(Menu which, const std::map<Menu, QMenu*>& made) const {

@@ -323,19 +323,19 @@ std::vector<float> possible_missing(const DisparityView& map) {
       static_cast<std::ptrdiff_t>(std::max(4.0, kLeastMissing * static_cast<double>(all.size())));
   std::vector<float> values;
   const auto add = [&](float value) {
-    const auto same = std::ranges::equal_range(all, value);
-    if (std::ssize(same) >= enough && std::ranges::count(values, value) == 0) {
+    const auto [begin, end] = std::equal_range(all.begin(), all.end(), value);
+    if (end - begin >= enough && std::ranges::count(values, value) == 0) {
       values.push_back(value);
     }
   };
   if (all.empty()) return {};
-  const auto low = std::ranges::equal_range(all, all.front());
-  const auto high = std::ranges::equal_range(all, all.back());
-  if (low.end() == all.end()) return {};
-  const float spread = high.begin() > low.end() ? *(high.begin() - 1) - *low.end() : 0;
+  const auto second = std::ranges::upper_bound(all, all.front());
+  const auto last = std::ranges::lower_bound(all, all.back());
+  if (second == all.end()) return {};
+  const float spread = last > second ? *(last - 1) - *second : 0;
   const auto is_far = [spread](float gap) { return gap > kFarBeyond * spread; };
-  if (is_far(*low.end() - all.front())) add(all.front());
-  if (is_far(all.back() - *(high.begin() - 1))) add(all.back());
+  if (is_far(*second - all.front())) add(all.front());
+  if (is_far(all.back() - *(last - 1))) add(all.back());
   for (const float value : kUsualMissing) add(value);
   return values;
 }

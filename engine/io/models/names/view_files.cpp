@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <numeric>
-#include <ranges>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -290,7 +289,8 @@ std::string unusable_text(const ViewFiles& views, const std::vector<UnusableView
   std::size_t others = unusable.size();
   for (const auto& [why, names] : explained) others -= names.size();
   if (others > 0) text = fmt::format(finding_text("views.unusable_others"), others, text);
-  for (const auto& [why, names] : explained | std::views::reverse) {
+  for (auto each = explained.rbegin(); each != explained.rend(); ++each) {
+    const auto& [why, names] = *each;
     const std::size_t named = std::min(names.size(), kMostNamedReasons);
     std::string those = joined(std::span(names).first(named), ", ");
     if (names.size() > named) those += fmt::format(" and {} others", names.size() - named);
