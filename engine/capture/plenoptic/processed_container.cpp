@@ -133,7 +133,7 @@ LightField::Samples as_gray(const Image<float>& values) {
   const auto [least, most] = range_of(values);
   const float range = most > least ? most - least : 1;
   ViewStack<float> samples({1, 1}, values.height(), values.width(), 1);
-  std::ranges::transform(values, samples.data(), [=](float value) {
+  std::ranges::transform(values, samples.data(), [least = least, range](float value) {
     return std::isfinite(value) ? (value - least) / range : 0;
   });
   return samples;
@@ -176,7 +176,8 @@ std::optional<ProcessedContainer> read_processed(const fs::path& path) {
                   "this container holds neither a raw picture nor processed ones; choose the raw "
                   "one, as the camera wrote it");
   }
-  std::ranges::partition(found.maps, [](const auto& map) { return map.name == "depthMap"; });
+  std::partition(found.maps.begin(), found.maps.end(),
+                 [](const auto& map) { return map.name == "depthMap"; });
   std::ranges::stable_sort(found.pictures, {}, [](const ProcessedPicture& picture) {
     return picture.lambda.value_or(std::numeric_limits<double>::max());
   });
