@@ -56,6 +56,8 @@ class EstimateController : public QObject {
   void connectResults();
   void update(Parts parts);
   void showChoice();
+  [[nodiscard]] bool canRun() const;
+  void showWhetherItCanRun();
   void showRunning();
   void listResults();
   [[nodiscard]] ResultRow rowOf(const EstimateEntry& entry) const;
