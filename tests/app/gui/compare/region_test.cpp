@@ -14,6 +14,8 @@
 #include <QComboBox>
 #include <QImage>
 #include <QLabel>
+#include <QScrollBar>
+#include <QTableWidget>
 
 #include <algorithm>
 #include <cmath>
@@ -71,6 +73,7 @@ class RegionTest : public QObject {
   void everyScene_hasItsOwnPart();
   void part_comesBackWithTheProject();
   void missingMask_isTold_andTheWholeViewIsJudged();
+  void tableOfAPart_doesNotScroll();
   void errors_arePlottedByDisparity();
   void errorsOfTwoResults_areTwoLines();
 };
@@ -252,6 +255,18 @@ void RegionTest::missingMask_isTold_andTheWholeViewIsJudged() {
   auto* bar = f.window.findChild<QWidget*>("messageBar");
   QTRY_VERIFY_WITH_TIMEOUT(bar->isVisible(), kPatience);
   QTRY_COMPARE(f.region().name(), QString("whole view"));
+}
+
+void RegionTest::tableOfAPart_doesNotScroll() {
+  Judging f({0.2F, 0.3F});
+  const auto* table = f.window.findChild<QTableWidget*>("metrics.table");
+  QTRY_VERIFY_WITH_TIMEOUT(!f.cell(0, "vmv2013.mse_100").isEmpty(), kPatience);
+  QTRY_COMPARE(table->horizontalScrollBar()->maximum(), 0);
+
+  f.drawRectangle({10, 10}, {80, 80});
+
+  QTRY_VERIFY_WITH_TIMEOUT(f.cell(0, "vmv2013.pixels").toInt() > 0, kPatience);
+  QCOMPARE(table->horizontalScrollBar()->maximum(), 0);
 }
 
 void RegionTest::errors_arePlottedByDisparity() {
