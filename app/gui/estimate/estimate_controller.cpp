@@ -89,17 +89,6 @@ QString named_value(const Estimate& estimate, const std::string& key, const Para
   return labeled_value_text(known ? known->parameters : kNone, key, value);
 }
 
-// Distinguishes this run: whether it ended early, and its changed parameters.
-QString parameter_text(const Estimate& estimate) {
-  QStringList texts;
-  if (was_taken_early(estimate)) texts << EstimateController::tr("ended early");
-  for (const auto& [key, value] : changed_parameters(estimate.method, estimate.parameters)) {
-    texts << named_value(estimate, key, value);
-  }
-  if (!texts.isEmpty()) return texts.join(", ");
-  return estimate.parameters.empty() ? QString() : EstimateController::tr("defaults");
-}
-
 QString detail_text(const Estimate& estimate) {
   QStringList lines;
   const GridShape grid = estimate.field.disparity.grid();
@@ -117,6 +106,17 @@ QString detail_text(const Estimate& estimate) {
 }
 
 }  // namespace
+
+QString parameter_text(const Estimate& estimate, const ParameterSet& shared) {
+  QStringList texts;
+  if (was_taken_early(estimate)) texts << EstimateController::tr("ended early");
+  for (const auto& each : changed_parameters(estimate.method, estimate.parameters)) {
+    const bool is_shared = std::ranges::find(shared, each) != shared.end();
+    if (!is_shared) texts << named_value(estimate, each.first, each.second);
+  }
+  if (!texts.isEmpty()) return texts.join(", ");
+  return estimate.parameters.empty() ? QString() : EstimateController::tr("defaults");
+}
 
 EstimateController::EstimateController(const Workbench& bench)
     : QObject(&bench.owner), bench_(bench), session_(bench.session), runs_(bench) {

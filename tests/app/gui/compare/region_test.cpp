@@ -2,6 +2,7 @@
 // The judged part of the view and errors by disparity, driven in the window that ships.
 #include "app/gui/compare/region_controller.h"
 
+#include "app/gui/estimate/estimate_controller.h"
 #include "app/gui/scene/scene_switcher.h"
 #include "app/session/project_file.h"
 #include "app/session/project_store.h"
@@ -76,6 +77,7 @@ class RegionTest : public QObject {
   void tableOfAPart_doesNotScroll();
   void errors_arePlottedByDisparity();
   void errorsOfTwoResults_areTwoLines();
+  void errorsOfTwoRuns_areNamedByWhatDiffers();
 };
 
 void RegionTest::rectangle_isDrawnAndJudged() {
@@ -299,6 +301,31 @@ void RegionTest::errorsOfTwoResults_areTwoLines() {
   f.session().show_estimate(f.ids[0]);
   QTRY_VERIFY_WITH_TIMEOUT(std::abs(squares->plot().series[0].points.back().y() - 4) < 1,
                            kPatience);
+}
+
+void RegionTest::errorsOfTwoRuns_areNamedByWhatDiffers() {
+  WindowFixture f;
+  f.openSmall();
+  Session& session = f.window.bench().session;
+  auto& estimates = find<EstimateController>(f.window);
+  for (const double scale : {0.6, 1.2}) {
+    estimates.run({"epi_l", {{"inner_scale", scale}}, {.views = ViewSelection::Center}});
+  }
+  QTRY_COMPARE_WITH_TIMEOUT(session.estimates().size(), std::size_t{2}, kScenePatience);
+  session.compare_with(session.estimates()[0].id);
+  f.trigger("tab.errors");
+  const auto* squares = f.window.findChild<LinePlot*>("errors.squares");
+  const auto legend = [squares] {
+    QStringList names;
+    for (const PlotSeries& series : squares->plot().series) names << series.name;
+    return names;
+  };
+
+  QTRY_COMPARE_WITH_TIMEOUT(legend(), QStringList({"Inner scale 1.2 px", "Inner scale 0.6 px"}),
+                            kPatience);
+
+  session.rename_estimate(session.estimates()[1].id, "smooth");
+  QTRY_COMPARE_WITH_TIMEOUT(legend(), QStringList({"smooth", "Inner scale 0.6 px"}), kPatience);
 }
 
 }  // namespace episcope::in_region_test
