@@ -476,8 +476,10 @@ QVariant SceneList::data(const QModelIndex& index, int role) const {
     case kIsOpen:
       return item.path == open_;
     case kSearchText:
-      return QStringList{item.path, item.form, item.shape, item.parts.join(' '), item.problem}.join(
-          '\n');
+      return QStringList{item.path,    item.form,
+                         item.shape,   item.parts.join(' '),
+                         item.problem, item.has_truth ? tr("ground truth") : QString()}
+          .join('\n');
     default:
       return {};
   }

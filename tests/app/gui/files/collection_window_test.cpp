@@ -184,6 +184,9 @@ void CollectionWindowTest::filterAndOrder_chooseRows() {
   order->setCurrentIndex(order->findText("Ground truth"));
 
   QCOMPARE(names_of(f).last(), QString("bad"));
+
+  QTest::keyClicks(f.window.findChild<QLineEdit*>("scenes.filter"), "ground truth");
+  QCOMPARE(names_of(f).size(), 3);
 }
 
 void CollectionWindowTest::problem_isToldWhole() {
