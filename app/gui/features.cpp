@@ -92,6 +92,7 @@ void add_capture(const Workbench& bench) {
   auto* tab = new QWidget(&bench.frame);
   bench.frame.addTab({.id = "capture",
                       .title = CaptureController::tr("Capture"),
+                      .task = "collection",
                       .command_text = CaptureController::tr("Capture tab"),
                       .command_tip = CaptureController::tr("Makes ground truth from a mesh"),
                       .widget = tab,

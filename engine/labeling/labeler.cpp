@@ -600,8 +600,8 @@ Labeling Labeler::smooth(LabelProbabilities probabilities, const LabelerParamete
 
 Names<FeatureSet> names_of(FeatureSet) {
   return {{FeatureSet::Image, "image"},
-          {FeatureSet::ImageEstimate, "image+estimate"},
-          {FeatureSet::ImageTruth, "image+truth"}};
+          {FeatureSet::ImageEstimate, "image+estimate", "image and estimate"},
+          {FeatureSet::ImageTruth, "image+truth", "image and ground truth"}};
 }
 
 Schema<LabelerParameters> labeler_schema() {

@@ -1371,6 +1371,10 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <source>pages or film</source>
         <translation>Seiten oder Film</translation>
     </message>
+    <message>
+        <source>Folder</source>
+        <translation>Ordner</translation>
+    </message>
 </context>
 <context>
     <name>episcope::ColorBar</name>
@@ -1542,6 +1546,10 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>Table</source>
         <translation>Tabelle</translation>
+    </message>
+    <message>
+        <source>%1 · %2 … %3</source>
+        <translation>%1 · %2 … %3</translation>
     </message>
 </context>
 <context>
@@ -1949,6 +1957,10 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>Method</source>
         <translation>Verfahren</translation>
+    </message>
+    <message>
+        <source>The light field is still loading.</source>
+        <translation>Das Lichtfeld wird noch geladen.</translation>
     </message>
 </context>
 <context>
@@ -6625,6 +6637,13 @@ s</translation>
     </message>
 </context>
 <context>
+    <name>episcope::SceneList</name>
+    <message>
+        <source>ground truth</source>
+        <translation>Referenz</translation>
+    </message>
+</context>
+<context>
     <name>episcope::SceneOpener</name>
     <message>
         <source>%1 · reading all views …</source>
@@ -7620,14 +7639,6 @@ s</translation>
         <translation>Bild</translation>
     </message>
     <message>
-        <source>image+estimate</source>
-        <translation>Bild+Schätzung</translation>
-    </message>
-    <message>
-        <source>image+truth</source>
-        <translation>Bild+Referenz</translation>
-    </message>
-    <message>
         <source>labeling</source>
         <translation>Labeling</translation>
     </message>
@@ -8363,6 +8374,14 @@ s</translation>
         <source>reading ground truth</source>
         <translation>Referenz wird gelesen</translation>
     </message>
+    <message>
+        <source>image and estimate</source>
+        <translation>Bild und Schätzung</translation>
+    </message>
+    <message>
+        <source>image and ground truth</source>
+        <translation>Bild und Referenz</translation>
+    </message>
 </context>
 <context>
     <name>episcope::ScribbleController</name>
@@ -9031,6 +9050,10 @@ s</translation>
     <message>
         <source>%1, other values as in Method</source>
         <translation>%1, andere Werte wie unter Methode</translation>
+    </message>
+    <message>
+        <source>The light field is still loading.</source>
+        <translation>Das Lichtfeld wird noch geladen.</translation>
     </message>
 </context>
 <context>

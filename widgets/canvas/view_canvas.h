@@ -49,6 +49,7 @@ class ViewCanvas : public QWidget {
   void setPixelText(PixelText text);
   /// Caption in the upper left corner, e.g. "view (4, 4)", after the badge of a side; empty = none.
   void setCaption(const QString& caption, Side side = Side::None);
+  [[nodiscard]] const QString& caption() const { return caption_; }
   /// Draws `overlay` instead of the overlay right of a divider at `position` (part of the width,
   /// clamped to [0, 1]), with `caption` in the upper right corner.
   void setWipe(double position, const QImage& overlay, const QString& caption);

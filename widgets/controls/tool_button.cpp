@@ -207,8 +207,17 @@ void AsideDelegate::paint(QPainter* painter, const QStyleOptionViewItem& option,
   painter->restore();
 }
 
+void AsideDelegate::initStyleOption(QStyleOptionViewItem* option, const QModelIndex& index) const {
+  QStyledItemDelegate::initStyleOption(option, index);
+  if (place_ == Place::Column) return;
+  const int aside = option->fontMetrics.horizontalAdvance(index.data(kAsideRole).toString());
+  const int room = option->rect.width() - aside - kAsideGap - 4 * kAsidePadding;
+  option->text = option->fontMetrics.elidedText(option->text, option->textElideMode, room);
+}
+
 QSize AsideDelegate::sizeHint(const QStyleOptionViewItem& option, const QModelIndex& index) const {
   const QSize size = QStyledItemDelegate::sizeHint(option, index);
+  if (place_ == Place::End) return {0, size.height()};  // no wider than the list
   const int aside = option.fontMetrics.horizontalAdvance(index.data(kAsideRole).toString());
   return {begin(option, index) + aside + kAsidePadding, size.height()};
 }

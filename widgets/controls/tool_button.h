@@ -82,8 +82,8 @@ class FittingSplitter : public QSplitter {
   bool is_dragged_ = false;
 };
 
-/// Draws a second, quieter text in an item's row: at its right end, or in a column right of the
-/// longest first text.
+/// Draws a second, quieter text in an item's row: at its right end, for which the first text is
+/// elided, or in a column right of the longest first text.
 class AsideDelegate : public QStyledItemDelegate {
   Q_OBJECT
 
@@ -98,6 +98,9 @@ class AsideDelegate : public QStyledItemDelegate {
              const QModelIndex& index) const override;
   [[nodiscard]] QSize sizeHint(const QStyleOptionViewItem& option,
                                const QModelIndex& index) const override;
+
+ protected:
+  void initStyleOption(QStyleOptionViewItem* option, const QModelIndex& index) const override;
 
  private:
   /// Distance from the left edge to the second text.

@@ -49,6 +49,7 @@ constexpr int kLines = 3;
 constexpr int kItemPadding = 6;
 constexpr double kThumbnailAspect = 4.0 / 3;
 constexpr int kMarkWidth = 3;
+constexpr int kProblemLines = 6;
 
 int line_height(const QStyleOptionViewItem& option) {
   return option.fontMetrics.height() + 2;
@@ -166,6 +167,7 @@ ScenePanel::ScenePanel(SceneList* list, QWidget* parent)
       order_(new QComboBox(this)),
       view_(new QListView(this)),
       hint_(new QLabel(this)),
+      problem_(new FoldedLabel(this, kProblemLines)),
       folder_label_(new ElidedLabel(this, Qt::ElideMiddle)),
       count_(new ElidedLabel(this)),
       head_(new QWidget(this)) {
@@ -194,6 +196,7 @@ ScenePanel::ScenePanel(SceneList* list, QWidget* parent)
   hint_->setObjectName("scenes.hint");
   hint_->setAlignment(Qt::AlignCenter);
   hint_->setWordWrap(true);
+  problem_->setObjectName("scenes.problem");
   count_->setObjectName("scenes.count");
   buildRows();
   connect(filter_, &QLineEdit::textChanged, shown_, &QSortFilterProxyModel::setFilterFixedString);
@@ -201,6 +204,8 @@ ScenePanel::ScenePanel(SceneList* list, QWidget* parent)
   connect(view_, &QListView::activated, this, [this](const QModelIndex& index) {
     emit openRequested(index.data(SceneList::kPath).toString());
   });
+  connect(view_->selectionModel(), &QItemSelectionModel::currentChanged, this,
+          &ScenePanel::showProblem);
   connect(shown_, &QAbstractItemModel::rowsInserted, this, &ScenePanel::showCount);
   connect(shown_, &QAbstractItemModel::rowsRemoved, this, &ScenePanel::showCount);
   connect(shown_, &QAbstractItemModel::modelReset, this, &ScenePanel::showCount);
@@ -221,6 +226,7 @@ void ScenePanel::buildRows() {
   layout->addWidget(head_);
   layout->addWidget(view_, 1);
   layout->addWidget(hint_, 1);
+  layout->addWidget(problem_);
   layout->addWidget(count_);
 }
 
@@ -254,7 +260,14 @@ QString ScenePanel::countText() const {
   return is_searching_ ? tr("Searching … %1").arg(text) : text;
 }
 
+void ScenePanel::showProblem() {
+  const QString problem = view_->currentIndex().data(SceneList::kProblem).toString();
+  problem_->setFullText(problem);
+  problem_->setVisible(!problem.isEmpty());
+}
+
 void ScenePanel::showCount() {
+  showProblem();
   const bool is_empty = list_->rowCount() == 0;
   const bool has_none = shown_->rowCount() == 0;
   view_->setVisible(!has_none);
@@ -463,8 +476,10 @@ QVariant SceneList::data(const QModelIndex& index, int role) const {
     case kIsOpen:
       return item.path == open_;
     case kSearchText:
-      return QStringList{item.path, item.form, item.shape, item.parts.join(' '), item.problem}.join(
-          '\n');
+      return QStringList{item.path,    item.form,
+                         item.shape,   item.parts.join(' '),
+                         item.problem, item.has_truth ? tr("ground truth") : QString()}
+          .join('\n');
     default:
       return {};
   }

@@ -21,6 +21,7 @@ class QSortFilterProxyModel;
 namespace episcope {
 
 class ElidedLabel;
+class FoldedLabel;
 class SceneList;
 
 /// The light fields of a folder: a sortable list with thumbnails and a text filter. Double click or
@@ -48,6 +49,8 @@ class ScenePanel : public QWidget {
  private:
   void buildRows();
   void showCount();
+  /// Why the selected light field cannot be opened.
+  void showProblem();
   void sort();
   [[nodiscard]] QString countText() const;
 
@@ -57,6 +60,7 @@ class ScenePanel : public QWidget {
   QComboBox* order_;
   QListView* view_;
   QLabel* hint_;
+  FoldedLabel* problem_;
   ElidedLabel* folder_label_;
   ElidedLabel* count_;
   QWidget* head_;

@@ -80,6 +80,7 @@ void ViewGrid::setGrid(GridShape grid) {
 
 void ViewGrid::setOpening(bool is_opening) {
   cells_->setOpening(is_opening);
+  position_->setVisible(!is_opening);
 }
 
 void ViewGrid::setCurrent(ViewIndex view) {

@@ -450,7 +450,8 @@ void LabelLookController::addCommands() {
                  "contours"),
        .keys = {tr("Shift+C")},
        .run = [this] { setDrawing(after(bench_.session.label_style().drawing)); },
-       .section = label_section::kLook});
+       .section = label_section::kLook,
+       .enabled = [this] { return bench_.session.scene() != nullptr; }});
 }
 
 void LabelLookController::update(Parts parts) {

@@ -44,6 +44,7 @@ MeasureController::MeasureController(const Workbench& bench)
     : QObject(&bench.owner), bench_(bench), panel_(new MeasurePanel(&bench.frame)) {
   bench.frame.addTab({.id = "measure",
                       .title = tr("Measure"),
+                      .task = "estimate",
                       .command_text = tr("Measure tab"),
                       .command_tip = tr("Lists the disparities measured in EPIs"),
                       .widget = panel_,

@@ -216,7 +216,19 @@ std::vector<CompareController::Entry> CompareController::sides() const {
   return entries;
 }
 
-QString CompareController::captionOf(const EstimateEntry& entry) const {
+// With the range of its colors, unless they are those of the legend.
+QString CompareController::withRange(const QString& caption, render::Quantity quantity) const {
+  const render::Shading shading = overlay_.shadingOf(quantity);
+  if (render::is_same(shading, overlay_.shadingOf(overlay_.choice().quantity))) return caption;
+  const QString range =
+      tr("%1 · %2 … %3")
+          .arg(caption, number_text(shading.range.min, 2), number_text(shading.range.max, 2));
+  return (range + ' ' + quantity_unit(quantity)).trimmed();
+}
+
+// Beside differences, one is no name of what is shown.
+QString CompareController::captionOf(const EstimateEntry& entry, const MapChoice& choice) const {
+  if (overlay_.showsDifference()) return withRange(overlay_.describe(choice), choice.quantity);
   const QString name = QString::fromStdString(entry.name);
   const auto evaluation =
       session_.evaluation({entry.id, judged_view(*session_.scene()), Protocol::Vmv2013});
@@ -229,7 +241,7 @@ std::vector<CompareController::Entry> CompareController::everything() const {
       {kViewTile, tr("view"), Side::None, request(std::nullopt), {}, true}};
   if (session_.has_truth(session_.view())) {
     entries.push_back({kTruthTile,
-                       tr("ground truth"),
+                       withRange(tr("ground truth"), Quantity::Truth),
                        Side::None,
                        request(MapChoice{Quantity::Truth, 0, 0}),
                        {}});
@@ -252,7 +264,7 @@ std::vector<CompareController::Entry> CompareController::everything() const {
                       : compared && shown->id == entry.id ? Side::A
                                                           : Side::None;
     entries.push_back(
-        {static_cast<quint64>(entry.id), captionOf(entry), side, request(choice), {}});
+        {static_cast<quint64>(entry.id), captionOf(entry, choice), side, request(choice), {}});
   }
   return entries;
 }

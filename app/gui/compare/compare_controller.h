@@ -86,7 +86,8 @@ class CompareController : public QObject {
   [[nodiscard]] TileRequest request(const std::optional<MapChoice>& choice) const;
   [[nodiscard]] std::vector<Entry> sides() const;
   [[nodiscard]] std::vector<Entry> everything() const;
-  [[nodiscard]] QString captionOf(const EstimateEntry& entry) const;
+  [[nodiscard]] QString withRange(const QString& caption, render::Quantity quantity) const;
+  [[nodiscard]] QString captionOf(const EstimateEntry& entry, const MapChoice& choice) const;
   void open(quint64 tile);
 
   Workbench bench_;

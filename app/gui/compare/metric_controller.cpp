@@ -21,6 +21,7 @@
 namespace episcope {
 namespace {
 
+constexpr const char* kMainMetrics[] = {"mse_100", "badpix_", "density", "shown", "layers_right"};
 constexpr std::array kProtocols = {Protocol::Vmv2013, Protocol::Benchmark2016};
 
 struct Place {
@@ -61,11 +62,13 @@ MetricRow row_of(const Judged& judged, const std::vector<Place>& places) {
   return row;
 }
 
-// Whether a column is left to the menu of the narrow table: it says what another one says, or what
-// is so in all results.
+// Whether a column is left to the menu of the narrow table: it is of some pixels only, or says what
+// another one, another panel, or all results say.
 bool is_minor(const QString& key, bool is_whole) {
-  return key.endsWith(".runtime_log") || key.endsWith(".mse_100_inset15") ||
-         key.endsWith(".q_25_100") || (key.endsWith(".density") && is_whole);
+  const QString metric = key.section('.', 1);
+  if (metric == "mse_100_inset15" || (metric == "density" && is_whole)) return true;
+  const auto begins_as = [&metric](const char* name) { return metric.startsWith(name); };
+  return key == "seconds" || (!metric.isEmpty() && std::ranges::none_of(kMainMetrics, begins_as));
 }
 
 void mark_minor(std::vector<MetricColumn>& columns, const std::vector<MetricRow>& rows) {

@@ -3,12 +3,14 @@
 
 #include "app/gui/compare/compare_controller.h"
 #include "app/gui/compare/region_controller.h"
+#include "app/gui/estimate/estimate_controller.h"
 #include "app/gui/scene/overlay.h"
 #include "app/gui/scene/viewer_area.h"
 #include "app/gui/shell/commands.h"
 #include "app/gui/shell/frame.h"
 #include "app/gui/shell/panes.h"
 #include "app/session/session.h"
+#include "engine/disparity/registry.h"
 #include "engine/evaluation/metrics.h"
 #include "engine/evaluation/region_metrics.h"
 #include "engine/evaluation/resolved_errors.h"
@@ -23,6 +25,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace episcope {
 namespace {
@@ -172,13 +175,23 @@ constexpr const char* kTab = "errors";
 
 using ErrorProfile = std::vector<ErrorBin>;
 
-PlotSeries series_of(const std::string& name, const ErrorProfile& profile,
-                     double ErrorBin::*number) {
-  PlotSeries series{QString::fromStdString(name), {}};
+PlotSeries series_of(const QString& name, const ErrorProfile& profile, double ErrorBin::*number) {
+  PlotSeries series{name, {}};
   for (const ErrorBin& bin : profile) {
     series.points.emplace_back((bin.disparity.min + bin.disparity.max) / 2, bin.*number);
   }
   return series;
+}
+
+// Of two results of a method, what they differ in; of others, and of renamed ones, the name.
+QString legend_of(const EstimateEntry& entry, const EstimateEntry* other) {
+  const QString name = QString::fromStdString(entry.name);
+  if (!other || other->estimate->method != entry.estimate->method) return name;
+  const Estimator* method = known_estimator(entry.estimate->method);
+  if (!method || !name.startsWith(QString::fromStdString(method->info.name))) return name;
+  const QString own = parameter_text(*entry.estimate, other->estimate->parameters);
+  const QString others = parameter_text(*other->estimate, entry.estimate->parameters);
+  return own == others ? name : own;
 }
 
 }  // namespace
@@ -226,7 +239,7 @@ std::optional<ErrorPlotController::Judged> ErrorPlotController::judged(const Est
   if (!evaluation) return std::nullopt;
   const bool is_layered = truth.has_layers() && !entry.estimate->layered.foreground.empty();
   const DisparityField& field = is_layered ? truth.foreground : truth.field;
-  return Judged{entry.name, std::move(evaluation), field.view(view)};
+  return Judged{QString::fromStdString(entry.name), std::move(evaluation), field.view(view)};
 }
 
 void ErrorPlotController::update() {
@@ -237,9 +250,14 @@ void ErrorPlotController::update() {
     return panel_->clear(why);
   }
   std::vector<Judged> results;
-  for (const EstimateEntry* entry : {session_.side_a(), session_.side_b()}) {
+  const EstimateEntry* a = session_.side_a();
+  const EstimateEntry* b = session_.side_b();
+  for (const auto& [entry, other] : {std::pair(a, b), std::pair(b, a)}) {
     if (!entry) continue;
-    if (auto result = judged(*entry)) results.push_back(std::move(*result));
+    auto result = judged(*entry);
+    if (!result) continue;
+    result->legend = legend_of(*entry, other);
+    results.push_back(std::move(*result));
   }
   if (!results.empty()) start(results);  // else they tell when they are there
 }
@@ -266,11 +284,12 @@ void ErrorPlotController::start(const std::vector<Judged>& results) {
         for (const ErrorBin& bin : profiles.front()) pixels += bin.pixels;
         if (pixels == 0) return panel_->clear(tr("No pixel of the %1 can be evaluated.").arg(part));
         for (std::size_t i = 0; i < results.size(); ++i) {
-          squares.series.push_back(series_of(results[i].name, profiles[i], &ErrorBin::mse_100));
-          bad.series.push_back(series_of(results[i].name, profiles[i], &ErrorBin::bad_percent));
+          const QString& legend = results[i].legend;
+          squares.series.push_back(series_of(legend, profiles[i], &ErrorBin::mse_100));
+          bad.series.push_back(series_of(legend, profiles[i], &ErrorBin::bad_percent));
         }
         panel_->setPlots(tr("%1 · %2, %3 px")
-                             .arg(QString::fromStdString(results.front().name), part,
+                             .arg(results.front().name, part,
                                   QLocale::c().toString(static_cast<qulonglong>(pixels))),
                          squares, bad);
       });

@@ -71,9 +71,10 @@ class ErrorPlotController : public QObject {
 
  private:
   struct Judged {
-    std::string name;
+    QString name;
     EvaluationPtr evaluation;
     DisparityView truth;  ///< Owned by the scene, which outlives the job.
+    QString legend{};
   };
 
   void update();

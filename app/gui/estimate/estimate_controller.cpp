@@ -5,6 +5,7 @@
 #include "app/gui/estimate/result_export.h"
 #include "app/gui/estimate/sweep_controller.h"
 #include "app/gui/scene/scene_opener.h"
+#include "app/gui/scene/viewer_area.h"
 #include "app/gui/shell/commands.h"
 #include "app/gui/shell/frame.h"
 #include "app/gui/shell/jobs.h"
@@ -88,17 +89,6 @@ QString named_value(const Estimate& estimate, const std::string& key, const Para
   return labeled_value_text(known ? known->parameters : kNone, key, value);
 }
 
-// Distinguishes this run: whether it ended early, and its changed parameters.
-QString parameter_text(const Estimate& estimate) {
-  QStringList texts;
-  if (was_taken_early(estimate)) texts << EstimateController::tr("ended early");
-  for (const auto& [key, value] : changed_parameters(estimate.method, estimate.parameters)) {
-    texts << named_value(estimate, key, value);
-  }
-  if (!texts.isEmpty()) return texts.join(", ");
-  return estimate.parameters.empty() ? QString() : EstimateController::tr("defaults");
-}
-
 QString detail_text(const Estimate& estimate) {
   QStringList lines;
   const GridShape grid = estimate.field.disparity.grid();
@@ -117,6 +107,17 @@ QString detail_text(const Estimate& estimate) {
 
 }  // namespace
 
+QString parameter_text(const Estimate& estimate, const ParameterSet& shared) {
+  QStringList texts;
+  if (was_taken_early(estimate)) texts << EstimateController::tr("ended early");
+  for (const auto& each : changed_parameters(estimate.method, estimate.parameters)) {
+    const bool is_shared = std::ranges::find(shared, each) != shared.end();
+    if (!is_shared) texts << named_value(estimate, each.first, each.second);
+  }
+  if (!texts.isEmpty()) return texts.join(", ");
+  return estimate.parameters.empty() ? QString() : EstimateController::tr("defaults");
+}
+
 EstimateController::EstimateController(const Workbench& bench)
     : QObject(&bench.owner), bench_(bench), session_(bench.session), runs_(bench) {
   addTab();
@@ -133,6 +134,10 @@ EstimateController::EstimateController(const Workbench& bench)
   connect(method_, &MethodPanel::copyCommandRequested, this, &EstimateController::copyCommand);
   connectResults();
   connect(&runs_, &MethodRuns::changed, this, &EstimateController::showRunning);
+  connect(&bench.viewer_area, &ViewerArea::previewChanged, this, [this] {
+    showWhetherItCanRun();
+    bench_.commands.refresh();
+  });
   connect(&bench.opener, &SceneOpener::opened, this, &EstimateController::runFirst);
   connect(&bench.frame, &Frame::started, this, [this] { is_settled_ = false; });
   connect(&bench.frame, &Frame::settled, this, [this] {
@@ -237,6 +242,17 @@ void EstimateController::run(const EstimateRequest& request) {
     runs_.run(request, *shown);
 }
 
+// Not on a light field that the one being read has covered.
+bool EstimateController::canRun() const {
+  return session_.scene() && !bench_.viewer_area.isPreviewing();
+}
+
+void EstimateController::showWhetherItCanRun() {
+  method_->setRunBlocked(canRun()           ? QString()
+                         : session_.scene() ? tr("The light field is still loading.")
+                                            : tr("Open a light field first."));
+}
+
 void EstimateController::showRunning() {
   const bool is_running = runs_.isRunning(session_.generation());
   method_->setRunning(is_running);
@@ -291,7 +307,7 @@ void EstimateController::update(Parts parts) {
                   [this](const Removed& each) { return !session_.find_scene(each.scene); });
   }
   if (parts.has(Part::Scene)) {
-    method_->setRunBlocked(session_.scene() ? QString() : tr("Open a light field first."));
+    showWhetherItCanRun();
     showRunning();
   }
   if (parts.has_any(Part::Scene | Part::Estimates | Part::Evaluations | Part::View | Part::Live)) {
@@ -372,6 +388,7 @@ constexpr int kResultSection = 1;
 
 void EstimateController::addCommands() {
   const auto has_scene = [this] { return session_.scene() != nullptr; };
+  const auto can_run = [this] { return canRun(); };
   bench_.commands.add({.id = "estimate.run",
                        .menu = Menu::Estimate,
                        .text = tr("Run"),
@@ -380,7 +397,7 @@ void EstimateController::addCommands() {
                        .keys = {Qt::Key_F5, tr("Ctrl+Return")},
                        .run = [this] { run(); },
                        .section = kMethodSection,
-                       .enabled = has_scene});
+                       .enabled = can_run});
   bench_.commands.add({.id = "estimate.batch",
                        .menu = Menu::Estimate,
                        .text = tr("Run on several…"),
@@ -413,7 +430,7 @@ void EstimateController::addCommands() {
        .keys = {tr("Ctrl+Shift+C")},
        .run = [this] { copyCommand(); },
        .section = kMethodSection,
-       .enabled = has_scene});
+       .enabled = can_run});
   method_->followTips(cancel, copy);
   addResultCommands();
   addNoteCommand();

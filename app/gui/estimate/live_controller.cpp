@@ -66,7 +66,10 @@ void LiveController::addCommand() {
        .keys = {tr("Ctrl+L")},
        .run = [this] { setOn(!is_on_); },
        .section = kRunSection,
-       .enabled = [this] { return is_on_ || bench_.session.scene() != nullptr; },
+       .enabled =
+           [this] {
+             return is_on_ || (bench_.session.scene() && !bench_.viewer_area.isPreviewing());
+           },
        .checked = [this] { return is_on_; }});
   method_.followLiveTip(action);
 }

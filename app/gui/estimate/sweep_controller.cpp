@@ -5,6 +5,7 @@
 #include "app/gui/scene/overlay.h"
 #include "app/gui/scene/scene_opener.h"
 #include "app/gui/scene/scene_switcher.h"
+#include "app/gui/scene/viewer_area.h"
 #include "app/gui/shell/commands.h"
 #include "app/gui/shell/dialogs.h"
 #include "app/gui/shell/frame.h"
@@ -177,6 +178,7 @@ void SweepController::connectPanel() {
   connect(method_.form(), &ParameterForm::valuesChanged, this, &SweepController::showPlan);
   connect(&bench_.frame, &Frame::tabShown, this, &SweepController::showMethod);
   connect(panel_, &SweepPanel::planEdited, this, &SweepController::showPlan);
+  connect(&bench_.viewer_area, &ViewerArea::previewChanged, this, &SweepController::showPlan);
   connect(panel_, &SweepPanel::runRequested, this, &SweepController::run);
   connect(panel_, &SweepPanel::cancelRequested, this,
           [this] { bench_.job_cancel.cancel({runs_->job()}); });
@@ -285,6 +287,9 @@ SweepController::Planned SweepController::planned() const {
 
 void SweepController::showPlan() {
   if (!bench_.session.scene()) return panel_->setPlan(tr("Open a light field first."), false);
+  if (bench_.viewer_area.isPreviewing()) {
+    return panel_->setPlan(tr("The light field is still loading."), false);
+  }
   try {
     const Planned plan = planned();
     const auto count = plan.points.size();

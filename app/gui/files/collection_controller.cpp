@@ -175,6 +175,7 @@ CollectionController::CollectionController(const Workbench& bench)
       thumbnails_(new ThumbnailQueue(this)) {
   bench.frame.addTab({.id = "collection",
                       .title = tr("Scenes"),
+                      .page = tr("Folder"),
                       .command_text = tr("Scenes tab"),
                       .command_tip = tr("Shows the light fields of a folder"),
                       .widget = panel_});

@@ -183,6 +183,12 @@ FileController::FileController(const Workbench& bench)
   bench.session.on_changed([this](Parts parts) {
     if (parts.has(Part::Scenes)) showInvitation();
   });
+  // One of the open ones may have to be read.
+  const auto follow = [this] {
+    if (!bench_.session.scenes().empty()) showInvitation();
+  };
+  connect(&bench.jobs, &Jobs::added, this, follow);
+  connect(&bench.jobs, &Jobs::removed, this, follow);
   showInvitation();
 }
 
@@ -424,8 +430,11 @@ void FileController::fillRecentMenu() {
 
 void FileController::showInvitation() {
   const QString key = bench_.commands.keyText("file.open");
+  const bool has_scenes = !bench_.session.scenes().empty();
+  const auto opening = bench_.jobs.running(Lane::Open);
   bench_.viewer_area.canvas()->setEmptyHint(
-      !bench_.session.scenes().empty() ? tr("Choose one in the list at the upper left.")
+      has_scenes && !opening.empty() ? opening.back().title + QStringLiteral(" …")
+      : has_scenes                   ? tr("Choose one in the list at the upper left.")
       : key.isEmpty()
           ? tr("Open a light field, or drop a file or a folder here.")
           : tr("Open a light field with %1, or drop a file or a folder here.").arg(key));

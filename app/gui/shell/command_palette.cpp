@@ -102,6 +102,7 @@ CommandPalette::CommandPalette(const Commands& commands, QWidget* parent)
   list_->setObjectName("command_palette.list");
   list_->setAccessibleName(tr("What was found"));
   list_->setFocusPolicy(Qt::NoFocus);
+  list_->setTextElideMode(Qt::ElideMiddle);
   list_->setItemDelegate(new AsideDelegate(AsideDelegate::Place::End, list_));
   auto* layout = new QVBoxLayout(this);
   layout->addWidget(edit_);

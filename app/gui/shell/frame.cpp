@@ -161,21 +161,21 @@ void Frame::setViewerArea(QWidget* viewer_area) {
 void Frame::addTab(const Tab& tab) {
   tabs_.push_back(tab);
   if (!tab.task.isEmpty()) {
-    panes_->add({pane_id(tab.id), tab.title, tab.widget,
-                 [this, id = tab.id] { putAmongPages(*findTab(id)); }});
-    pagesOf(*findTab(tab.task))->addTab(tab.widget, tab.title);
+    panes_->add({pane_id(tab.id), tab.title, tab.widget, [this, id = tab.id] { showTab(id); }});
+    tab.waits ? keepAside(tab.widget)
+              : void(pagesOf(*findTab(tab.task))->addTab(tab.widget, tab.title));
     return;
   }
   QWidget* pane = tab.page.isEmpty() ? tab.widget : makePages(tab);
   panes_->add({pane_id(tab.id), tab.title, pane, [this, id = tab.id] { putInBook(*findTab(id)); },
                tab.widget});
-  if (tab.waits) {
-    // Not among the others, invisible: behind an invisible last one, Qt scrolls too far.
-    pane->setParent(side_);
-    pane->hide();
-  } else {
-    book_->addTab(pane, tab.title);
-  }
+  tab.waits ? keepAside(pane) : void(book_->addTab(pane, tab.title));
+}
+
+// Not among the others, invisible: behind an invisible last one, Qt scrolls too far.
+void Frame::keepAside(QWidget* pane) {
+  pane->setParent(side_);
+  pane->hide();
 }
 
 QTabWidget* Frame::makePages(const Tab& task) {
@@ -212,12 +212,6 @@ void Frame::putInBook(const Tab& tab) {
   QTabWidget* pages = pagesOf(tab);
   QWidget* pane = pages ? pages : tab.widget;
   book_->setCurrentIndex(book_->insertTab(placeIn(*book_, tab), pane, tab.title));
-}
-
-void Frame::putAmongPages(const Tab& page) {
-  QTabWidget* pages = pagesOf(*findTab(page.task));
-  pages->insertTab(placeIn(*pages, page), page.widget, page.title);
-  showTab(page.id);
 }
 
 const Tab* Frame::findTab(const QString& id) const {
@@ -284,6 +278,7 @@ void Frame::showTab(const QString& id) {
   QTabWidget* pages = pagesOf(*task);
   const bool is_alone = tab != task && pages->indexOf(tab->widget) < 0;
   if (is_alone && raisePane(pane_id(id))) return;
+  if (is_alone) pages->insertTab(placeIn(*pages, *tab), tab->widget, tab->title);
   if (pages) pages->setCurrentWidget(tab->widget);
   if (raisePane(pane_id(task->id))) return;
   QWidget* pane = pages ? pages : task->widget;

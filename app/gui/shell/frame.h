@@ -101,13 +101,13 @@ class Frame : public QWidget {
   void follow(QTabWidget& book);
   void askWhereTabGoes(const QTabWidget& book, const QPoint& at);
   [[nodiscard]] QTabWidget* makePages(const Tab& task);
+  void keepAside(QWidget* pane);
   /// Pages of a task; null if it has none.
   [[nodiscard]] QTabWidget* pagesOf(const Tab& task) const;
   /// Where a tab belongs among those that are in the book now.
   [[nodiscard]] int placeIn(const QTabWidget& book, const Tab& tab) const;
   /// Inserts a tab at its place and shows it.
   void putInBook(const Tab& tab);
-  void putAmongPages(const Tab& page);
   bool raisePane(const QString& id);
   [[nodiscard]] const Tab* findTab(const QString& id) const;
   [[nodiscard]] const Tab* tabOf(const QWidget* widget) const;

@@ -253,6 +253,14 @@ void fit_to_grid(const ArrayFile& file, const OpenOptions& options, ChosenLayout
                                  grid_text(*wanted)));
 }
 
+std::vector<const ArrayEntry*> arrays_beside(const ArrayFile& file, const ArrayEntry& light_field) {
+  std::vector<const ArrayEntry*> others;
+  for (const ArrayEntry& each : file.entries()) {
+    if (&each != &light_field) others.push_back(&each);
+  }
+  return others;
+}
+
 SceneProbe probe_single(const ArrayFile& file, const OpenOptions& options) {
   const ArrayEntry* entry = find_light_field(file, options.dataset, options.axes);
   if (!entry) throw NoLightField(file.path(), "no array of this file has the shape of one");
@@ -267,6 +275,9 @@ SceneProbe probe_single(const ArrayFile& file, const OpenOptions& options) {
   }
   if (entry->type == NumberType::UInt8) probe.sample_type = SampleType::UInt8;
   if (entry->type == NumberType::UInt16) probe.sample_type = SampleType::UInt16;
+  ListedMaps maps = list_array_maps(arrays_beside(file, *entry), {layout, entry->order});
+  probe.truth = std::move(maps.disparity);
+  probe.labels = std::move(maps.labels);
   return probe;
 }
 
@@ -295,11 +306,8 @@ Scene read_single(const ArrayFile& file, const char* reader, const OpenOptions& 
   }
   decode_luma_chroma(entry.name, read.samples, scene.convention);
   progress.step("reading maps");
-  std::vector<const ArrayEntry*> others;
-  for (const ArrayEntry& other : file.entries()) {
-    const bool is_owned = more.owns && more.owns(other);
-    if (&other != &entry && !is_owned) others.push_back(&other);
-  }
+  std::vector<const ArrayEntry*> others = arrays_beside(file, entry);
+  std::erase_if(others, [&more](const ArrayEntry* each) { return more.owns && more.owns(*each); });
   ArrayMaps maps = read_array_maps(file, others, {chosen.layout, entry.order}, options.needs_truth,
                                    progress.part(0.65, 0.7));
   parts.samples = std::move(read.samples);

@@ -188,6 +188,25 @@ ArrayMaps read_array_maps(const ArrayFile& file, const std::vector<const ArrayEn
   return maps;
 }
 
+ListedMaps list_array_maps(const std::vector<const ArrayEntry*>& others,
+                           const FieldAxes& light_field) {
+  ListedMaps listed;
+  const int views = light_field.layout.grid().count();
+  for (const ArrayEntry* entry : labels_last(others)) {
+    const auto kind = kind_of(*entry);
+    const auto axes =
+        kind ? map_layout(*entry, light_field.layout, light_field.order) : std::nullopt;
+    if (!axes) continue;
+    const char* extent = axes->grid().count() == views ? "of all views" : "of one view";
+    if (may_be_disparity(*entry, *kind)) {
+      if (listed.disparity.empty()) listed.disparity = fmt::format("disparity {}", extent);
+    } else if (kind == MapKind::Labels && listed.labels.empty()) {
+      listed.labels = fmt::format("labels {}", extent);
+    }
+  }
+  return listed;
+}
+
 void settle_disparity(const LightField::Samples& samples, ArrayMaps& maps, DisparityField& field,
                       ConventionReport& report) {
   if (field.empty()) return;

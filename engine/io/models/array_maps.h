@@ -46,6 +46,15 @@ inline constexpr const char* kNamedLabels = "named like labels, but with fractio
                                         const FieldAxes& light_field, bool wants_labels,
                                         const Progress& progress);
 
+/// What arrays hold beside the light field, by their names, axes and types alone: "disparity of all
+/// views", "labels of one view"; empty = none. Floats named like labels count as disparity.
+struct ListedMaps {
+  std::string disparity;
+  std::string labels;
+};
+[[nodiscard]] ListedMaps list_array_maps(const std::vector<const ArrayEntry*>& others,
+                                         const FieldAxes& light_field);
+
 /// Converts stored disparity to px per view step, positive = nearer, by the evidence of the views
 /// (`infer_units`, `find_occlusion_order`), and tells the report. `field` is the truth of `maps`,
 /// which may have been moved; `maps` notes whether the sign is assumed.

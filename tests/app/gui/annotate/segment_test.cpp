@@ -16,6 +16,7 @@
 #include "widgets/panels/segment_panel.h"
 
 #include <QAction>
+#include <QComboBox>
 #include <QSignalSpy>
 
 #include <cmath>
@@ -41,6 +42,7 @@ class SegmentTest : public QObject {
   Q_OBJECT
 
  private slots:
+  void settings_areNamedInWords();
   void live_labelsTheViewAndShowsIt();
   void stroke_andUndo_giveNewLabels();
   void view_thatIsGoneTo_isLabeledToo();
@@ -60,6 +62,18 @@ class SegmentTest : public QObject {
   void mapOfLabels_isNotShownOverAnotherLightField();
   void labelsOfAProject_haveNoProbabilities();
 };
+
+void SegmentTest::settings_areNamedInWords() {
+  Segmenting f;
+
+  QStringList names;
+  for (const auto* choice : f.panel().findChildren<QComboBox*>()) {
+    for (int i = 0; i < choice->count(); ++i) names << choice->itemText(i);
+  }
+
+  QVERIFY2(names.contains("image and estimate"), qPrintable(names.join(", ")));
+  QVERIFY2(names.filter("+").isEmpty(), qPrintable(names.join(", ")));
+}
 
 void SegmentTest::live_labelsTheViewAndShowsIt() {
   Segmenting f;

@@ -2,6 +2,7 @@
 // The judged part of the view and errors by disparity, driven in the window that ships.
 #include "app/gui/compare/region_controller.h"
 
+#include "app/gui/estimate/estimate_controller.h"
 #include "app/gui/scene/scene_switcher.h"
 #include "app/session/project_file.h"
 #include "app/session/project_store.h"
@@ -14,6 +15,8 @@
 #include <QComboBox>
 #include <QImage>
 #include <QLabel>
+#include <QScrollBar>
+#include <QTableWidget>
 
 #include <algorithm>
 #include <cmath>
@@ -71,8 +74,10 @@ class RegionTest : public QObject {
   void everyScene_hasItsOwnPart();
   void part_comesBackWithTheProject();
   void missingMask_isTold_andTheWholeViewIsJudged();
+  void tableOfAPart_doesNotScroll();
   void errors_arePlottedByDisparity();
   void errorsOfTwoResults_areTwoLines();
+  void errorsOfTwoRuns_areNamedByWhatDiffers();
 };
 
 void RegionTest::rectangle_isDrawnAndJudged() {
@@ -254,6 +259,18 @@ void RegionTest::missingMask_isTold_andTheWholeViewIsJudged() {
   QTRY_COMPARE(f.region().name(), QString("whole view"));
 }
 
+void RegionTest::tableOfAPart_doesNotScroll() {
+  Judging f({0.2F, 0.3F});
+  const auto* table = f.window.findChild<QTableWidget*>("metrics.table");
+  QTRY_VERIFY_WITH_TIMEOUT(!f.cell(0, "vmv2013.mse_100").isEmpty(), kPatience);
+  QTRY_COMPARE(table->horizontalScrollBar()->maximum(), 0);
+
+  f.drawRectangle({10, 10}, {80, 80});
+
+  QTRY_VERIFY_WITH_TIMEOUT(f.cell(0, "vmv2013.pixels").toInt() > 0, kPatience);
+  QCOMPARE(table->horizontalScrollBar()->maximum(), 0);
+}
+
 void RegionTest::errors_arePlottedByDisparity() {
   Judging f({0.2F});
   f.trigger("tab.errors");
@@ -284,6 +301,31 @@ void RegionTest::errorsOfTwoResults_areTwoLines() {
   f.session().show_estimate(f.ids[0]);
   QTRY_VERIFY_WITH_TIMEOUT(std::abs(squares->plot().series[0].points.back().y() - 4) < 1,
                            kPatience);
+}
+
+void RegionTest::errorsOfTwoRuns_areNamedByWhatDiffers() {
+  WindowFixture f;
+  f.openSmall();
+  Session& session = f.window.bench().session;
+  auto& estimates = find<EstimateController>(f.window);
+  for (const double scale : {0.6, 1.2}) {
+    estimates.run({"epi_l", {{"inner_scale", scale}}, {.views = ViewSelection::Center}});
+  }
+  QTRY_COMPARE_WITH_TIMEOUT(session.estimates().size(), std::size_t{2}, kScenePatience);
+  session.compare_with(session.estimates()[0].id);
+  f.trigger("tab.errors");
+  const auto* squares = f.window.findChild<LinePlot*>("errors.squares");
+  const auto legend = [squares] {
+    QStringList names;
+    for (const PlotSeries& series : squares->plot().series) names << series.name;
+    return names;
+  };
+
+  QTRY_COMPARE_WITH_TIMEOUT(legend(), QStringList({"Inner scale 1.2 px", "Inner scale 0.6 px"}),
+                            kPatience);
+
+  session.rename_estimate(session.estimates()[1].id, "smooth");
+  QTRY_COMPARE_WITH_TIMEOUT(legend(), QStringList({"smooth", "Inner scale 0.6 px"}), kPatience);
 }
 
 }  // namespace episcope::in_region_test

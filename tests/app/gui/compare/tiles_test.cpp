@@ -5,6 +5,7 @@
 #include "tests/window_test_main.h"
 #include "widgets/canvas/tile_wall.h"
 #include "widgets/canvas/view_canvas.h"
+#include "widgets/controls/text.h"
 
 #include <cmath>
 
@@ -20,6 +21,7 @@ class TilesTest : public QObject {
   void clickOnATile_showsItsResultAndMovesTheCrossHair();
   void tileOfTheView_printsItsSamples();
   void tilesOfErrors_differByResult();
+  void tilesBesideDifferences_tellTheirColors();
   void newResult_joinsTheTiles();
   void escape_leavesTheTiles();
 };
@@ -100,6 +102,26 @@ void TilesTest::tilesOfErrors_differByResult() {
   QTRY_VERIFY_WITH_TIMEOUT(color(2) != color(3), kPatience);
   QCOMPARE(f.wall()->tile(0)->picture(),
            f.canvas()->picture().convertToFormat(QImage::Format_RGB32));
+}
+
+// The legend is that of the differences.
+void TilesTest::tilesBesideDifferences_tellTheirColors() {
+  Compared f({0.1F, 0.2F, 0.3F});
+  f.session().compare_with(f.ids[0]);
+  f.trigger("compare.tiles");
+  QTRY_COMPARE_WITH_TIMEOUT(f.wall()->count(), 5, kPatience);
+  const auto caption = [&f](int tile) { return f.wall()->tile(tile)->caption(); };
+  QCOMPARE(caption(1), QString("ground truth"));
+
+  f.trigger("compare.difference");
+
+  QTRY_COMPARE_WITH_TIMEOUT(caption(3), QString("off 2 − off"), kPatience);
+  QCOMPARE(caption(4), QString("off 3 − off"));
+  const Interval range = f.window.bench().overlay.shadingOf(render::Quantity::Disparity).range;
+  const QString colors =
+      QString(" · %1 … %2 px").arg(number_text(range.min, 2), number_text(range.max, 2));
+  QCOMPARE(caption(1), "ground truth" + colors);
+  QCOMPARE(caption(2), "disparity of off" + colors);
 }
 
 void TilesTest::newResult_joinsTheTiles() {

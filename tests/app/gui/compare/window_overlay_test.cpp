@@ -15,6 +15,7 @@
 #include <QGuiApplication>
 #include <QLabel>
 #include <QMenu>
+#include <QScrollBar>
 #include <QSlider>
 #include <QTabBar>
 #include <QTabWidget>
@@ -329,6 +330,7 @@ void OverlayTest::compareTab_showsTheMainMetricsWithoutScrolling() {
   const int end = table->columnViewportPosition(5) + table->columnWidth(5);
   QVERIFY2(end <= table->viewport()->width(),
            qPrintable(QString("%1 > %2").arg(end).arg(table->viewport()->width())));
+  QCOMPARE(table->horizontalScrollBar()->maximum(), 0);
 }
 
 }  // namespace episcope::in_window_overlay_test

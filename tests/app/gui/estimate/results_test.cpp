@@ -12,6 +12,7 @@
 #include "widgets/controls/text.h"
 #include "widgets/panels/value_bar.h"
 
+#include <QAbstractButton>
 #include <QAction>
 #include <QClipboard>
 #include <QComboBox>
@@ -58,6 +59,7 @@ class ResultsTest : public QObject {
 
  private slots:
   void run_listsItsResultWithItsError();
+  void nothingRuns_whileAnotherLightFieldIsRead();
   void exportedResult_readsBack();
   void exportedMap_marksInvalidPixels();
   void submittedResult_isAccepted();
@@ -90,6 +92,34 @@ void ResultsTest::run_listsItsResultWithItsError() {
   QTRY_VERIFY2_WITH_TIMEOUT(row_text().contains(QRegularExpression("\\d+\\.\\d\\d\\|.*s\\|")),
                             qPrintable(row_text()), kPatience);
   QCOMPARE(f.window.bench().overlay.quantity(), render::Quantity::Disparity);
+}
+
+void ResultsTest::nothingRuns_whileAnotherLightFieldIsRead() {
+  WindowFixture f;
+  f.openSmall();
+  ViewerArea& area = f.window.bench().viewer_area;
+  const Commands& commands = f.window.bench().commands;
+  f.trigger("tab.sweep");
+  const auto can_run = [&] {
+    std::vector<bool> answers;
+    for (const char* button : {"method.run", "method.copyCommand", "method.live", "sweep.run"}) {
+      answers.push_back(f.window.findChild<QAbstractButton*>(button)->isEnabled());
+    }
+    for (const char* id : {"estimate.run", "estimate.copy_command", "estimate.live"}) {
+      answers.push_back(commands.find(id)->isEnabled());
+    }
+    return answers;
+  };
+  QTRY_VERIFY(can_run() == std::vector<bool>(7, true));
+
+  area.showPreview(QImage(8, 8, QImage::Format_RGB32), "another");
+
+  QVERIFY(can_run() == std::vector<bool>(7, false));
+  QVERIFY(f.window.findChild<QAbstractButton*>("method.run")->toolTip().contains("loading"));
+
+  area.endPreview();
+
+  QVERIFY(can_run() == std::vector<bool>(7, true));
 }
 
 void ResultsTest::exportedResult_readsBack() {

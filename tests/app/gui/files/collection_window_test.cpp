@@ -2,6 +2,7 @@
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
 #include "widgets/canvas/view_canvas.h"
+#include "widgets/controls/labels.h"
 #include "widgets/panels/scene_panel.h"
 
 #include <QComboBox>
@@ -28,6 +29,7 @@ class CollectionWindowTest : public QObject {
   void pageKeys_goFromSceneToScene();
   void steppingThrough_keepsOpenWhatWasWorkedOn();
   void filterAndOrder_chooseRows();
+  void problem_isToldWhole();
   void emptyFolder_saysSo();
   void slider_opensFrames_andKeepsTheView();
   void otherScenes_haveNoSlider();
@@ -182,6 +184,31 @@ void CollectionWindowTest::filterAndOrder_chooseRows() {
   order->setCurrentIndex(order->findText("Ground truth"));
 
   QCOMPARE(names_of(f).last(), QString("bad"));
+
+  QTest::keyClicks(f.window.findChild<QLineEdit*>("scenes.filter"), "ground truth");
+  QCOMPARE(names_of(f).size(), 3);
+}
+
+void CollectionWindowTest::problem_isToldWhole() {
+  WindowFixture f;
+  const QString folder = make_collection(f, {"cotton"});
+  QFile broken(folder + "/bad.h5");
+  QVERIFY(broken.open(QIODevice::WriteOnly));
+  broken.write("this is no HDF5 file");
+  broken.close();
+  open_collection(f, folder, 2);
+  QListView* list = list_of(f);
+  const auto* problem = f.window.findChild<FoldedLabel*>("scenes.problem");
+  QVERIFY(!problem->isVisible());
+
+  const QModelIndex bad = list->model()->index(0, 0);
+  list->setCurrentIndex(bad);
+
+  QVERIFY(problem->isVisible());
+  QCOMPARE(problem->fullText(), bad.data(SceneList::kProblem).toString());
+  QVERIFY(!problem->text().endsWith(QChar(0x2026)));
+  list->setCurrentIndex(list->model()->index(1, 0));
+  QVERIFY(!problem->isVisible());
 }
 
 void CollectionWindowTest::emptyFolder_saysSo() {

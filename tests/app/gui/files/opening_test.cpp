@@ -147,6 +147,7 @@ void OpeningTest::factsAndViews_areNotThoseOfTheFormerWhileAnotherIsRead() {
   ViewerArea& area = f.window.bench().viewer_area;
   const auto* title = f.window.findChild<ElidedLabel*>("info.title");
   auto& cells = *find<ViewGrid>(f.window).cells();
+  const auto* position = f.window.findChild<QLabel*>("viewGrid.position");
   const QString former = title->fullText();
   QTRY_VERIFY_WITH_TIMEOUT(is_colored(cells.grab().toImage()), kPatience);
 
@@ -155,11 +156,13 @@ void OpeningTest::factsAndViews_areNotThoseOfTheFormerWhileAnotherIsRead() {
   QCOMPARE(title->fullText(), QString("Opening …"));
   QVERIFY(!f.window.findChild<QLabel*>("info.source"));
   QVERIFY(!is_colored(cells.grab().toImage()));
+  QVERIFY(!position->isVisible());
 
   area.endPreview();
 
   QCOMPARE(title->fullText(), former);
   QVERIFY(is_colored(cells.grab().toImage()));
+  QVERIFY(position->isVisible());
 }
 
 void OpeningTest::folderOfASingleLightField_opensIt() {

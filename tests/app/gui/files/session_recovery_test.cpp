@@ -2,7 +2,9 @@
 #include "app/gui/files/autosave.h"
 #include "app/session/project_store.h"
 #include "tests/app/gui/files/working.h"
+#include "tests/app/gui/held_lane.h"
 #include "tests/window_test_main.h"
+#include "widgets/canvas/view_canvas.h"
 #include "widgets/controls/message_bar.h"
 
 #include <QDir>
@@ -99,6 +101,7 @@ class SessionRecoveryTest : public QObject {
   void killedSession_losesNothingThatWasKept();
   void recoveredSession_isKeptAgain();
   void recoveredSession_isToldWhenItIsShown();
+  void recoveredScene_isNamedWhileItIsRead();
   void offer_isKeptByItsCross_andTheDemoWaitsForIt();
   void discardedSession_isGone();
   void sceneThatWasOnlyLookedAt_comesBackClean();
@@ -185,6 +188,25 @@ void SessionRecoveryTest::recoveredSession_isToldWhenItIsShown() {
                            kScenePatience);
   QVERIFY(f.session().scene());
   QCOMPARE(f.resultCount(), std::size_t{1});
+}
+
+void SessionRecoveryTest::recoveredScene_isNamedWhileItIsRead() {
+  const QTemporaryDir state;
+  const WindowFixture files;
+  leave_session(files, state.path());
+  Recovering f(state.path());
+  f.window.bench().frame.start();
+  QTRY_VERIFY(f.bar()->isVisible());
+  HeldLane held(f.window.bench().jobs, Lane::Open);
+
+  f.bar()->findChild<QPushButton*>("message.action")->click();
+
+  QTRY_COMPARE(f.session().scenes().size(), std::size_t{1});
+  QCoreApplication::processEvents();  // the session tells the window of them one turn later
+  QCOMPARE(f.canvas()->state(), ViewCanvas::State::Empty);
+  QCOMPARE(f.canvas()->accessibleDescription(), QString("Opening edge …"));
+  held.release();
+  QTRY_COMPARE_WITH_TIMEOUT(f.canvas()->state(), ViewCanvas::State::Picture, kScenePatience);
 }
 
 void SessionRecoveryTest::offer_isKeptByItsCross_andTheDemoWaitsForIt() {

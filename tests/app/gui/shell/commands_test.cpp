@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/shell/commands.h"
+#include "app/gui/files/file_controller.h"
 #include "app/gui/shell/appearance.h"
 #include "app/gui/shell/manual_window.h"
 #include "app/session/session.h"
@@ -19,6 +20,7 @@
 #include <QMenu>
 #include <QMenuBar>
 #include <QPushButton>
+#include <QScrollBar>
 #include <QSet>
 #include <QSettings>
 #include <QSignalSpy>
@@ -51,6 +53,7 @@ class CommandsTest : public QObject {
   void listOfKeys_isSearched();
   void palette_findsAndRunsACommand();
   void palette_namesWhatCannotBeRunNow();
+  void palette_elidesLongNames();
   void palette_findsByDescriptionSynonymMethodAndLightField_data();
   void palette_findsByDescriptionSynonymMethodAndLightField();
   void chosenColours_areAppliedAndRemembered();
@@ -337,6 +340,21 @@ void CommandsTest::palette_namesWhatCannotBeRunNow() {
   QTest::keyClicks(edit, " xyzzy");
   QCOMPARE(list->count(), 1);
   QVERIFY2(list->item(0)->text().startsWith("Nothing"), qPrintable(list->item(0)->text()));
+}
+
+void CommandsTest::palette_elidesLongNames() {
+  WindowFixture f;
+  remember_recent("/home/" + QString("somebody/").repeated(20) + "lf.h5");
+
+  f.trigger("help.palette");
+
+  const auto* list = f.window.findChild<QListWidget*>("command_palette.list");
+  QTest::keyClicks(f.window.findChild<QLineEdit*>("command_palette.edit"), "somebody");
+  QCOMPARE(list->count(), 1);
+  QVERIFY(list->fontMetrics().horizontalAdvance(list->item(0)->text()) > list->width());
+  QCoreApplication::processEvents();
+  QCOMPARE(list->horizontalScrollBar()->maximum(), 0);
+  QCOMPARE(list->textElideMode(), Qt::ElideMiddle);
 }
 
 void CommandsTest::palette_findsByDescriptionSynonymMethodAndLightField_data() {

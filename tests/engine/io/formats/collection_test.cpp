@@ -3,6 +3,7 @@
 #include "engine/core/error.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/base/image_header.h"
+#include "engine/io/formats/write_arrays.h"
 #include "engine/io/formats/write_scene.h"
 #include "engine/io/models/result_file.h"
 #include "tests/engine/io/synthetic_scene.h"
@@ -103,6 +104,25 @@ class CollectionTest : public QObject {
     QCOMPARE(entries[1].probe.truth, std::string("disparity of all views"));
     QCOMPARE(entries[1].probe.labels, std::string("labels of the center view"));
     QCOMPARE(entries[2].probe.grid, (GridShape{2, 4}));
+  }
+
+  void mapsBesideTheViews_areKnownByTheNamesOfArrays() {
+    Scene scene = scene_;
+    auto truth = std::make_shared<GroundTruth>();
+    truth->field.disparity = ViewStack<float>({3, 3}, 24, 32, 1);
+    truth->labels = ViewStack<std::int32_t>({1, 1}, 24, 32, 1, {1, 1});
+    scene.truth = truth;
+    io::write_npz(made("with") / "lf.npz", scene, Progress(1));
+    scene.truth = std::make_shared<GroundTruth>();
+    io::write_npz(made("without") / "lf.npz", scene, Progress(1));
+
+    const auto entries = found();
+
+    QCOMPARE(summary(entries, root()), QStringList({"with/lf.npz:numpy", "without/lf.npz:numpy"}));
+    QCOMPARE(entries[0].probe.truth, std::string("disparity of all views"));
+    QCOMPARE(entries[0].probe.labels, std::string("labels of one view"));
+    QCOMPARE(entries[1].probe.truth, std::string());
+    QCOMPARE(entries[1].probe.labels, std::string());
   }
 
   void files_inOneFolderAreOneLightFieldEach() {
