@@ -12,11 +12,11 @@ constexpr float kPerPower = 1.44269504F;  // log2 e
 
 void misfits(const SurfaceRow& row, float* out) {
   for (int x = 0; x < row.width; ++x, out += row.pitch) {
-    const float disparity = row.disparity[x], doubt = row.doubt[x];
+    const float disparity = row.disparity[x];
     for (int l = 0; l < row.pitch; l += kLanes) {
       const Vec dx = static_cast<float>(x) - load(row.middle + l);
       const Vec spread = load(row.flat + l) + (load(row.slope + l) + load(row.bend + l) * dx) * dx;
-      const Vec variance = load(row.variance + l) * (spread + 1.0F) + doubt;
+      const Vec variance = load(row.variance + l) * (spread + 1.0F);
       const Vec miss = disparity - load(row.at + l) - load(row.across + l) * dx;
       const Vec all = variance + miss * miss;
       const Vec misfit = 0.5F * natural_log(all * all / (variance * row.noise));

@@ -11,7 +11,6 @@ struct SurfaceRow {
   int width = 0;
   int pitch = 0;  ///< Labels, rounded up to whole vectors of the widest kind.
   const float* disparity = nullptr;
-  const float* doubt = nullptr;     ///< Variance of each disparity, added to the surface's.
   const float* is_known = nullptr;  ///< 0 = the misfit is half of `most`;
   const float* middle = nullptr;    ///< otherwise the surface is at
   const float* at = nullptr;        ///< at + across·dx,

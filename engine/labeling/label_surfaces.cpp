@@ -6,8 +6,6 @@
 #include "engine/labeling/feature_kernel.h"
 #include "engine/labeling/forest_kernel.h"
 
-#include <opencv2/imgproc.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -20,11 +18,8 @@ constexpr int kRounds = 12;
 constexpr double kShortStroke = 1.0 / 80;  // Of the larger side: half of its slope is believed.
 constexpr double kOutlier = 3;             // Of the Cauchy weights, in robust standard deviations.
 constexpr double kLeastScale = 1e-3;       // So that exact planes have one.
-constexpr double kLeverage = 0.3;          // What leverage adds to the variance.
+constexpr double kLeverage = 0.08;         // What leverage adds to the variance.
 constexpr float kWeight = 1.5F;
-constexpr int kJumpRadius_px = 2;
-constexpr float kNoSurfaceJump_px = 0.1F;
-constexpr float kJumpDoubt = 0.3F;
 constexpr float kLeastProbability = 0.02F;
 
 // Far from everything: beyond the labels there is no surface.
@@ -59,27 +54,6 @@ struct RowTerms {
   std::vector<float> values;  // [term][label]
 };
 
-// Beside a jump an estimate may be anything between its ends: variance that grows with the spread
-// of disparities in the neighborhood.
-Image<float> doubt_of(ImageView<const float> disparity) {
-  const cv::Size window(2 * kJumpRadius_px + 1, 2 * kJumpRadius_px + 1);
-  const cv::Mat kernel = cv::getStructuringElement(cv::MORPH_RECT, window);
-  // OpenCV has no constant matrices; this one is only read.
-  const cv::Mat map(disparity.height, disparity.width, CV_32F, const_cast<float*>(disparity.data));
-  cv::Mat most, least;
-  cv::dilate(map, most, kernel);
-  cv::erode(map, least, kernel);
-  Image<float> doubt(disparity.height, disparity.width);
-  for (int y = 0; y < disparity.height; ++y) {
-    const auto *high = most.ptr<float>(y), *low = least.ptr<float>(y);
-    std::transform(high, high + disparity.width, low, doubt.row(y), [](float a, float b) {
-      const float deviation = kJumpDoubt * std::max(a - b - kNoSurfaceJump_px, 0.F);
-      return deviation * deviation;
-    });
-  }
-  return doubt;
-}
-
 }  // namespace
 
 LabelSurfaces::LabelSurfaces(ImageView<const std::int32_t> strokes, int label_count,
@@ -87,7 +61,6 @@ LabelSurfaces::LabelSurfaces(ImageView<const std::int32_t> strokes, int label_co
                              const Progress& progress)
     : disparity_(disparity),
       trust_(trust),
-      doubt_(doubt_of(disparity)),
       pitch_(round_up(label_count, kVectorLanes)),
       misfits_(make_large<float>(static_cast<std::size_t>(disparity.height * row_size()))) {
   std::vector<std::vector<Sample>> samples(static_cast<std::size_t>(label_count));
@@ -187,27 +160,9 @@ void LabelSurfaces::find_misfits(int y) {
   SurfaceRow row = terms.row();
   row.width = disparity_.width;
   row.disparity = disparity_.row(y);
-  row.doubt = doubt_.row(y);
   row.noise = static_cast<float>(kNoise_px * kNoise_px);
   row.most = kMostMisfit;
   kernel.misfits(row, misfits_.get() + y * row_size());
-}
-
-bool LabelSurfaces::lies_behind(int label, int y, int x) const {
-  const Surface& surface = surfaces_[static_cast<std::size_t>(label)];
-  const auto& [at, across, down] = surface.plane;
-  const double expected = at + across * (x - surface.x) + down * (y - surface.y);
-  return surface.is_known && expected < static_cast<double>(disparity_.at(y, x));
-}
-
-void LabelSurfaces::set_gaps(ImageView<const std::int32_t> labels) {
-  for (int y = 0; y < labels.height; ++y) {
-    const std::int32_t* const label = labels.row(y);
-    float* misfit = misfits_.get() + y * row_size();
-    for (int x = 0; x < labels.width; ++x, misfit += pitch_) {
-      if (label[x] > 0) misfit[label[x] - 1] = 0;
-    }
-  }
 }
 
 void LabelSurfaces::set_support(const std::vector<float>& support, const Progress& progress) {

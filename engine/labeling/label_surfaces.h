@@ -18,14 +18,13 @@ namespace episcope {
 /// Planes are fitted by least squares with Cauchy weights of three robust standard deviations;
 /// short strokes draw the slopes to 0. The variance at a pixel is the variance of the strokes about
 /// their plane plus kNoise_px². It grows with the leverage h = (1, x, y) M⁻¹ (1, x, y)ᵀ, where M is
-/// the mean of (1, x, y)ᵀ(1, x, y) over the strokes, and with the spread of disparities within 2
-/// px, because estimates are vague beside jumps. An addition to [WSG13]; tests/accuracy/tuning.md
-/// has the gain.
+/// the mean of (1, x, y)ᵀ(1, x, y) over the strokes. An addition to [WSG13];
+/// tests/accuracy/tuning.md has the gain.
 class LabelSurfaces {
  public:
-  /// `strokes` as from `propagated_strokes` (predict_from_strokes.h), `disparity` of the view, without
-  /// holes, and how far it is trusted (`disparity_trust`; empty = everywhere), borrowed. 4·pitch
-  /// bytes per pixel. Throws Cancelled.
+  /// `strokes` as from `propagated_strokes` (predict_from_strokes.h), `disparity` of the view,
+  /// without holes, and how far it is trusted (`disparity_trust`; empty = everywhere), borrowed.
+  /// 4·pitch bytes per pixel. Throws Cancelled.
   LabelSurfaces(ImageView<const std::int32_t> strokes, int label_count,
                 ImageView<const float> disparity, ImageView<const float> trust,
                 const Progress& progress);
@@ -39,13 +38,6 @@ class LabelSurfaces {
   /// (`surface_support`). A misfit then exceeds the least misfit of its pixel by this share only;
   /// at first the share is 1. Throws Cancelled.
   void set_support(const std::vector<float>& support, const Progress& progress);
-
-  /// Sets the labels that show in gaps of the foreground (`labels_in_thin_gaps`), `[y][x]`, an
-  /// index plus one, 0 = none. Disparity no longer counts against them there.
-  void set_gaps(ImageView<const std::int32_t> labels);
-
-  /// Whether the surface of a label is known and lies behind the disparity of a pixel.
-  [[nodiscard]] bool lies_behind(int label, int y, int x) const;
 
   /// Negative log-likelihoods of row `y`, at most kMostMisfit: log(1 + r²/σ²) + log(σ/kNoise_px), r
   /// the distance of the disparity from the label's plane. kMostMisfit/2 for labels of too few
@@ -78,7 +70,6 @@ class LabelSurfaces {
 
   ImageView<const float> disparity_;
   ImageView<const float> trust_;
-  Image<float> doubt_;  // Variance of disparities beside jumps, px².
   std::vector<Surface> surfaces_;
   int pitch_;
   LargeArray<float> misfits_;  // [y][x][label], pitch_ apart.

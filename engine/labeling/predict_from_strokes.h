@@ -110,21 +110,4 @@ struct StrokeKnowledge {
                                                  ImageView<const float> trust,
                                                  const Progress& progress);
 
-/// Finds gaps of thin objects that the estimate has filled, `[y][x]`: an index of the label that
-/// the image shows there plus one, 0 = none. Estimates extend the disparity of bars, stalks and
-/// lattices into the gaps between them, where it contradicts the forest.
-///
-/// A pixel is in a gap if all of this holds:
-/// - The forest prefers another label than the one whose surface its disparity fits best, and the
-///   surface of the preferred label lies behind that disparity.
-/// - Within kReach_px there is a thin part of the fitting label: kFewestPixels connected pixels or
-///   more, in no square of kThin_px of that label, for which forest and disparity agree.
-/// - More than half of the fitting label is thin; speckles of a doubtful forest are thin too.
-/// - At most kMostThin of the preferred label is thin, because it continues beside the gaps.
-///
-/// An addition to [WSG13]; tests/accuracy/tuning.md has the gain. Throws Cancelled.
-[[nodiscard]] Image<std::int32_t> labels_in_thin_gaps(const PixelVotes& votes,
-                                                      const LabelSurfaces& surfaces,
-                                                      const Progress& progress);
-
 }  // namespace episcope

@@ -1883,14 +1883,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Fügt das angezeigte Ergebnis einer Einreichung zum Benchmark von 2016 hinzu</translation>
     </message>
     <message>
-        <source>ended early</source>
-        <translation>vorzeitig beendet</translation>
-    </message>
-    <message>
-        <source>defaults</source>
-        <translation>Standardwerte</translation>
-    </message>
-    <message>
         <source>One view</source>
         <translation>Eine Ansicht</translation>
     </message>
@@ -5435,6 +5427,14 @@ s</translation>
     <message>
         <source>&gt; %1 px</source>
         <translation>&gt; %1 px</translation>
+    </message>
+    <message>
+        <source>ended early</source>
+        <translation>vorzeitig beendet</translation>
+    </message>
+    <message>
+        <source>defaults</source>
+        <translation>Standardwerte</translation>
     </message>
 </context>
 <context>

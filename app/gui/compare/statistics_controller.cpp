@@ -3,7 +3,6 @@
 
 #include "app/gui/compare/compare_controller.h"
 #include "app/gui/compare/region_controller.h"
-#include "app/gui/estimate/estimate_controller.h"
 #include "app/gui/scene/overlay.h"
 #include "app/gui/scene/viewer_area.h"
 #include "app/gui/shell/commands.h"

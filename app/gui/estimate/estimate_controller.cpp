@@ -4,6 +4,7 @@
 #include "app/gui/estimate/method_range.h"
 #include "app/gui/estimate/result_export.h"
 #include "app/gui/estimate/sweep_controller.h"
+#include "app/gui/scene/overlay.h"
 #include "app/gui/scene/scene_opener.h"
 #include "app/gui/scene/viewer_area.h"
 #include "app/gui/shell/commands.h"
@@ -83,12 +84,6 @@ std::vector<MethodDescription> described_methods() {
   return methods;
 }
 
-QString named_value(const Estimate& estimate, const std::string& key, const ParameterValue& value) {
-  static const std::vector<ParameterDescription> kNone;
-  const Estimator* known = known_estimator(estimate.method);
-  return labeled_value_text(known ? known->parameters : kNone, key, value);
-}
-
 QString detail_text(const Estimate& estimate) {
   QStringList lines;
   const GridShape grid = estimate.field.disparity.grid();
@@ -106,17 +101,6 @@ QString detail_text(const Estimate& estimate) {
 }
 
 }  // namespace
-
-QString parameter_text(const Estimate& estimate, const ParameterSet& shared) {
-  QStringList texts;
-  if (was_taken_early(estimate)) texts << EstimateController::tr("ended early");
-  for (const auto& each : changed_parameters(estimate.method, estimate.parameters)) {
-    const bool is_shared = std::ranges::find(shared, each) != shared.end();
-    if (!is_shared) texts << named_value(estimate, each.first, each.second);
-  }
-  if (!texts.isEmpty()) return texts.join(", ");
-  return estimate.parameters.empty() ? QString() : EstimateController::tr("defaults");
-}
 
 EstimateController::EstimateController(const Workbench& bench)
     : QObject(&bench.owner), bench_(bench), session_(bench.session), runs_(bench) {

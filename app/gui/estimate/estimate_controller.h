@@ -75,10 +75,6 @@ class EstimateController : public QObject {
   bool is_settled_ = true;        // no earlier work is offered
 };
 
-/// What distinguishes a run of a method: whether it ended early, and its changed parameters but
-/// those that are `shared`; "defaults" without any. Empty if its parameters are not known.
-[[nodiscard]] QString parameter_text(const Estimate& estimate, const ParameterSet& shared = {});
-
 /// `range` with one end moved to a disparity. The other end stays, or is set 0.5 px away if it is
 /// unknown or on the wrong side. Rounds outwards to 0.01 px.
 enum class RangeEnd { Lower, Upper };

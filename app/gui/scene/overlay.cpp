@@ -2,7 +2,10 @@
 #include "app/gui/scene/overlay.h"
 
 #include "app/gui/shell/jobs.h"
+#include "app/session/command_line.h"
+#include "app/session/run_estimator.h"
 #include "engine/core/parallel.h"
+#include "engine/disparity/registry.h"
 #include "engine/evaluation/metrics.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/controls/picture.h"
@@ -471,6 +474,23 @@ QStringList sample_texts(const LightField& light_field, ViewIndex view, PixelInd
       },
       light_field.samples());
   return texts;
+}
+
+QString named_value(const Estimate& estimate, const std::string& key, const ParameterValue& value) {
+  static const std::vector<ParameterDescription> kNone;
+  const Estimator* known = known_estimator(estimate.method);
+  return labeled_value_text(known ? known->parameters : kNone, key, value);
+}
+
+QString parameter_text(const Estimate& estimate, const ParameterSet& shared) {
+  QStringList texts;
+  if (was_taken_early(estimate)) texts << Overlay::tr("ended early");
+  for (const auto& each : changed_parameters(estimate.method, estimate.parameters)) {
+    const bool is_shared = std::ranges::find(shared, each) != shared.end();
+    if (!is_shared) texts << named_value(estimate, each.first, each.second);
+  }
+  if (!texts.isEmpty()) return texts.join(", ");
+  return estimate.parameters.empty() ? QString() : Overlay::tr("defaults");
 }
 
 }  // namespace episcope

@@ -6,6 +6,7 @@
 #include "app/session/picture.h"
 #include "app/session/quantity_map.h"
 #include "app/session/session.h"
+#include "engine/core/estimate.h"
 #include "engine/core/jobs.h"
 #include "engine/core/light_field.h"
 
@@ -189,5 +190,12 @@ class Overlay : public QObject {
 /// Stored samples of a pixel, one text per channel.
 [[nodiscard]] QStringList sample_texts(const LightField& light_field, ViewIndex view,
                                        PixelIndex pixel);
+
+/// A parameter of an estimate as forms name it: "Inner scale 1.2 px".
+[[nodiscard]] QString named_value(const Estimate& estimate, const std::string& key,
+                                  const ParameterValue& value);
+/// What distinguishes a run of a method: whether it ended early, and its changed parameters but
+/// those that are `shared`; "defaults" without any. Empty if its parameters are not known.
+[[nodiscard]] QString parameter_text(const Estimate& estimate, const ParameterSet& shared = {});
 
 }  // namespace episcope

@@ -34,7 +34,7 @@ class LabelWeightsKernelTest : public QObject {
 
  private slots:
   void misfits_followTheirFormula() {
-    const auto disparity = numbers(kWidth, -2, 2, 1), doubt = numbers(kWidth, 0, 0.3F, 2);
+    const auto disparity = numbers(kWidth, -2, 2, 1);
     const auto middle = numbers(kPitch, 0, kWidth, 3), at = numbers(kPitch, -2, 2, 4);
     const auto across = numbers(kPitch, -0.1F, 0.1F, 5), variance = numbers(kPitch, 2e-3F, 1, 6);
     const auto flat = numbers(kPitch, 0, 2, 7), slope = numbers(kPitch, 0, 1e-3F, 8);
@@ -43,15 +43,15 @@ class LabelWeightsKernelTest : public QObject {
     is_known[3] = 0;
 
     kernel_of(best_isa())
-        .misfits({kWidth, kPitch, disparity.data(), doubt.data(), is_known.data(), middle.data(),
-                  at.data(), across.data(), variance.data(), flat.data(), slope.data(), bend.data(),
-                  1.6e-3F, 3},
-                 found.data());
+        .misfits(
+            {kWidth, kPitch, disparity.data(), is_known.data(), middle.data(), at.data(),
+             across.data(), variance.data(), flat.data(), slope.data(), bend.data(), 1.6e-3F, 3},
+            found.data());
 
     for (int x = 0; x < kWidth; ++x) {
       for (int l = 0; l < kLabels; ++l) {
         const double dx = x - static_cast<double>(middle[l]);
-        const double v = variance[l] * (1 + flat[l] + slope[l] * dx + bend[l] * dx * dx) + doubt[x];
+        const double v = variance[l] * (1 + flat[l] + slope[l] * dx + bend[l] * dx * dx);
         const double miss = disparity[x] - at[l] - across[l] * dx;
         const double spread = v + miss * miss;
         const double wanted =
