@@ -17,7 +17,7 @@ namespace {
 // Jumps of disparity that are none, and how soon larger ones count in full.
 constexpr float kNoEdgeJump_px = 0.02F;
 constexpr float kJumpSharpness = 10;
-constexpr int kNearJump_px = 3;
+constexpr int kNearJump_px = 2;
 
 // Length of the disparity's forward differences, 0 where one of the pixels is invalid.
 float disparity_jump(const DisparityView& map, int y, int x) {

@@ -15,12 +15,12 @@ struct EdgeParameters {
   double disparity = 4;  ///< γ, per px of jump: likewise for disparity; ≥ 0.
   /// Weight of an image edge, in [0, 1], where disparity is known and does not jump: most such
   /// edges are texture.
-  double texture = 0.6;
+  double texture = 0.4;
 };
 
 /// The probability of an edge at every pixel of a view, `[y][x]` in [0, 1], as EDGE_WEIGHTS of the
 /// archive: 1 − exp(−β·m·|∇I| − γ·|∇d|), forward differences, samples in [0, 1], |∇I| over all
-/// channels; m grows from `texture` to 1 with the largest jump within 3 px, because estimated jumps
+/// channels; m grows from `texture` to 1 with the largest jump within 2 px, because estimated jumps
 /// lie beside the edges that they belong to. Views that `disparity` (which may be empty) does not
 /// cover, and pixels where it is invalid, use the image alone. Throws InvalidInput on a wrong size,
 /// Cancelled.
