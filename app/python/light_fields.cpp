@@ -15,6 +15,7 @@
 #include "engine/io/models/array_file.h"
 #include "engine/io/models/open_options.h"
 
+#include <fmt/format.h>
 #include <pybind11/stl.h>
 #include <nlohmann/json.hpp>
 
@@ -423,6 +424,14 @@ OrderedArray<T> numbers_from(const py::object& array, const std::string& what) {
   }
   const auto given = py::array::ensure(array);
   if (given && kinds.find(given.dtype().kind()) != std::string::npos) {
+    if (is_whole && given.size() > 0 && given.itemsize() > static_cast<py::ssize_t>(sizeof(T))) {
+      const auto largest = py::cast<double>(given.attr("max")());
+      if (largest >= std::numeric_limits<std::int32_t>::max()) {
+        throw InvalidInput(
+            fmt::format("{} hold {:.0f}, but at most {} is expected; number them anew", what,
+                        largest, std::numeric_limits<std::int32_t>::max() - 1));
+      }
+    }
     return OrderedArray<T>(given);
   }
   if (is_whole && given && given.dtype().kind() == 'f') {  // as MATLAB stores whole numbers

@@ -45,6 +45,12 @@ std::shared_ptr<const ViewStack<float>> LabelingDisparity::confidence() const {
   return {estimate, &estimate->confidence};
 }
 
+EstimatePtr estimate_for_labels(const Scene& scene, Device device, const Progress& progress) {
+  return run_estimator(scene, find_estimator(kLabelingEstimator), {{"corners", false}},
+                       {.device = device}, progress)
+      .estimate;
+}
+
 LabelingDisparity find_labeling_disparity(const Scene& scene, const LabelerParameters& parameters,
                                           const std::filesystem::path& result_file,
                                           const Progress& progress, Device device) {
@@ -58,10 +64,7 @@ LabelingDisparity find_labeling_disparity(const Scene& scene, const LabelerParam
     bring_to_focus(estimate, lf, progress);
     return disparity_of(std::make_shared<const Estimate>(std::move(estimate)), name);
   }
-  return disparity_of(
-      run_estimator(scene, find_estimator(kLabelingEstimator), {}, {.device = device}, progress)
-          .estimate,
-      kLabelingEstimator);
+  return disparity_of(estimate_for_labels(scene, device, progress), kLabelingEstimator);
 }
 
 bool has_edge_probabilities(const Scene& scene) {

@@ -19,7 +19,7 @@ namespace episcope {
 /// it if the parameters say so.
 struct LabelingDisparity {
   std::shared_ptr<const DisparityField> field;
-  std::string origin;    ///< "truth", "epi_c", or the file it was read from.
+  std::string origin;    ///< "truth", "net", or the file it was read from.
   EstimatePtr estimate;  ///< What `field` is part of; null for the truth.
 
   /// How sure the estimate is of each pixel; null if that is not known, as for the truth.
@@ -30,7 +30,11 @@ struct LabelingDisparity {
 [[nodiscard]] LabelingDisparity disparity_of(EstimatePtr estimate, const std::string& origin);
 
 /// The method that estimates disparity for labels where none is given.
-inline constexpr const char* kLabelingEstimator = "epi_c";
+inline constexpr const char* kLabelingEstimator = "net";
+/// Estimates it: of all views, those but the first as that one shows them. Throws InvalidInput,
+/// Cancelled, and what the method throws.
+[[nodiscard]] EstimatePtr estimate_for_labels(const Scene& scene, Device device,
+                                              const Progress& progress);
 
 /// Finds the disparity that the set of features needs: the truth for FeatureSet::ImageTruth, else
 /// the result in `result_file`, brought to the focus plane of the scene, else an estimate of all

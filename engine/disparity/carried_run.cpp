@@ -12,9 +12,11 @@
 namespace episcope {
 namespace {
 
-// The corners of the grid but `from`: the views that see most of what it does not.
-std::vector<ViewIndex> outermost_views(GridShape grid, ViewIndex from) {
+// The corners of the grid but the first view: the views that see most of what it does not.
+std::vector<ViewIndex> outermost_views(const CarriedMethod& method, GridShape grid) {
   std::vector<ViewIndex> views;
+  if (!method.has_corners()) return views;
+  const ViewIndex from = method.first_view();
   for (const int v : {0, grid.v - 1}) {
     for (const int u : {0, grid.u - 1}) {
       const ViewIndex view{v, u};
@@ -45,7 +47,7 @@ class CarriedBlocks {
     maps_ = {{1, 1}, from_, lf_.height(), lf_.width()};
     if (selection == ViewSelection::Center || lf_.grid().count() == 1) return;
     maps_ = {lf_.grid(), {}, lf_.height(), lf_.width()};
-    for (const ViewIndex view : outermost_views(lf_.grid(), from_)) views_.push_back(view);
+    for (const ViewIndex view : outermost_views(*method_, lf_.grid())) views_.push_back(view);
   }
 
   [[nodiscard]] const MapGeometry& maps() const { return maps_; }
@@ -301,7 +303,7 @@ Estimate carried_to_all(const LightField& compared, const std::vector<Estimate>&
 Estimate run_carried(CarriedMethod& method, ViewSelection views, const Progress& progress) {
   const GridShape grid = method.compared().grid();
   if (views == ViewSelection::Center || grid.count() == 1) return method.estimate_first(progress);
-  const std::vector<ViewIndex> corners = outermost_views(grid, method.first_view());
+  const std::vector<ViewIndex> corners = outermost_views(method, grid);
   const double next = method.share_of_next();
   const double share = 0.9 / (1 + next * static_cast<double>(corners.size()));
   std::vector<Estimate> maps;

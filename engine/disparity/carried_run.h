@@ -11,8 +11,8 @@
 
 namespace episcope {
 
-/// A method that estimates single views. All others are carried from few of them: the first one and
-/// the corners of the grid (carried_run). Refers to its light field.
+/// A method that estimates single views. All others are carried from few of them: the first one
+/// and, with `has_corners`, the corners of the grid (carried_run). Refers to its light field.
 class CarriedMethod {
  public:
   virtual ~CarriedMethod() = default;
@@ -36,6 +36,8 @@ class CarriedMethod {
   [[nodiscard]] virtual std::vector<double> facts() const { return {}; }
   virtual void restore(const std::vector<double>& /*facts*/, const Progress& /*progress*/) {}
 
+  /// Whether the corners of the grid are estimated, too, before all other views are carried.
+  [[nodiscard]] virtual bool has_corners() const { return true; }
   /// Share of another view in the work of the first.
   [[nodiscard]] virtual double share_of_next() const { return 1; }
   /// Bytes that the estimate of a view takes beside large arrays (memory.h).

@@ -159,6 +159,7 @@ class NetMethod final : public CarriedMethod {
                       view_parameters(), progress.part(0.01, 1), device_));
   }
 
+  [[nodiscard]] bool has_corners() const override { return parameters_.has_corners; }
   [[nodiscard]] double share_of_next() const override {
     return (kRoundWork + kRefinementWork) / (kVolumeWork * net_label_count(range_) +
                                              kRoundWork * parameters_.rounds + kRefinementWork);
@@ -213,6 +214,10 @@ Schema<NetMethodParameters> net_schema() {
                {"Refinement rounds",
                 "Rounds in which each pixel chooses among the disparities around it"},
                {1, kMostRounds})
+      .flag("corners", &P::has_corners,
+            {"Corner views",
+             "For all views: estimate the corners of the grid, too; without, the first view is "
+             "carried to all others in half the time"})
       .interval("range", &P::range, {"Disparity range", kRangeHelp, "px"}, {-20, 20})
       .view(
           "view", &P::view,

@@ -169,6 +169,18 @@ Speed speed_of(const std::vector<BenchmarkResult>& results, const std::string& e
   return speed;
 }
 
+/// Says which results are judged on a part of their views alone, since their ranks tell little.
+std::string part_note(const std::vector<BenchmarkResult>& results) {
+  std::string parts;
+  for (const BenchmarkResult& result : results) {
+    const auto shown = find_metric(result.vmv2013, "shown");
+    if (!shown || *shown >= 100) continue;
+    parts += fmt::format("{}{} on {} ({:.1f} %)", parts.empty() ? "" : ", ", result.entry,
+                         result.scene, *shown);
+  }
+  return parts.empty() ? "" : " Judged on a part of the pixels alone: " + parts + ".";
+}
+
 void add_columns(TextTable& table, const std::vector<BenchmarkResult>& results,
                  Metrics BenchmarkResult::*metrics, const std::string& name) {
   std::vector<std::string> keys;
@@ -250,6 +262,7 @@ TitledTable overview_table(const std::vector<BenchmarkResult>& results) {
                      {{"algorithm", "rank", "accuracy", "speed", "seconds", "all views"}, {}},
                      {}};
   if (const std::string note = gap_note(matrix, ranking); !note.empty()) titled.note += " " + note;
+  titled.note += part_note(results);
   for (const std::size_t entry : ranking.order) {
     const Speed speed = speed_of(results, matrix.entries[entry]);
     const bool is_timed = speed.timed > 0;

@@ -109,7 +109,8 @@ struct TitledTable {
 [[nodiscard]] TitledTable accuracy_table(const std::string& title, const ScoreMatrix& matrix);
 
 /// As figure 8: rank, algorithm, average MSE × 100, speed class by the mean time of its scenes,
-/// whether that is the time of all views.
+/// whether that is the time of all views. The note names results that are judged on a part of the
+/// pixels alone.
 [[nodiscard]] TitledTable overview_table(const std::vector<BenchmarkResult>& results);
 
 /// All tables of a benchmark without search: figures 7 and 8, MSE and BadPix of the 2016 protocol,

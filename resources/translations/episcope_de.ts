@@ -3163,6 +3163,46 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <source>Unexpected order of views: %1.</source>
         <translation>Unerwartete Reihenfolge der Ansichten: %1.</translation>
     </message>
+    <message>
+        <source>%1 names none of the %2×%3 views; its labels are taken for the center view (%4).</source>
+        <translation>%1 benennt keine der %2×%3 Ansichten; die Labels gelten für die mittlere Ansicht (%4).</translation>
+    </message>
+    <message>
+        <source>%1 names none of the views; it is taken for the center view.</source>
+        <translation>%1 benennt keine der Ansichten und gilt für die mittlere.</translation>
+    </message>
+    <message>
+        <source>%1 promises disparities of %2 … %3 px, but the truth has %4 … %5 px; methods search what is promised unless the range is found or given.</source>
+        <translation>%1 verspricht Disparitäten von %2 … %3 px, die Referenz hat aber %4 … %5 px; Methoden durchsuchen das Versprochene, wenn der Bereich nicht gefunden oder angegeben wird.</translation>
+    </message>
+    <message>
+        <source>%2 … %3 px are promised, the truth has %4 … %5 px.</source>
+        <translation>%2 … %3 px sind versprochen, die Referenz hat %4 … %5 px.</translation>
+    </message>
+    <message>
+        <source>No pixel belongs to %1 in %2: the shapes are too small, outside of the picture, or covered.</source>
+        <translation>Kein Pixel gehört zu %1 in %2: Die Formen sind zu klein, außerhalb des Bildes oder verdeckt.</translation>
+    </message>
+    <message>
+        <source>No pixel belongs to %1.</source>
+        <translation>Kein Pixel gehört zu %1.</translation>
+    </message>
+    <message>
+        <source>The labels are taken in the order in which the views are shown.</source>
+        <translation>Die Labels gelten in der Reihenfolge, in der die Ansichten gezeigt werden.</translation>
+    </message>
+    <message>
+        <source>The views were read in another order than they are stored (%1); the labels are taken in the order in which the views are shown. --flip none reads the views as they are stored.</source>
+        <translation>Die Ansichten wurden in anderer Reihenfolge gelesen, als sie gespeichert sind (%1); die Labels gelten in der Reihenfolge, in der die Ansichten gezeigt werden. --flip none liest die Ansichten, wie sie gespeichert sind.</translation>
+    </message>
+    <message>
+        <source>disp_min %1 is not below disp_max %2 in %3; neither is used.</source>
+        <translation>disp_min %1 liegt nicht unter disp_max %2 in %3; keines von beiden wird verwendet.</translation>
+    </message>
+    <message>
+        <source>disp_min is not below disp_max.</source>
+        <translation>disp_min liegt nicht unter disp_max.</translation>
+    </message>
 </context>
 <context>
     <name>episcope::FocusController</name>
@@ -8381,6 +8421,14 @@ s</translation>
     <message>
         <source>image and ground truth</source>
         <translation>Bild und Referenz</translation>
+    </message>
+    <message>
+        <source>Corner views</source>
+        <translation>Ansichten der Ecken</translation>
+    </message>
+    <message>
+        <source>For all views: estimate the corners of the grid, too; without, the first view is carried to all others in half the time</source>
+        <translation>Für alle Ansichten: auch die Ecken des Rasters schätzen; sonst wird die erste Ansicht in der halben Zeit auf alle anderen übertragen</translation>
     </message>
 </context>
 <context>

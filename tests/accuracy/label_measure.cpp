@@ -80,7 +80,10 @@ LabelingDisparity disparity_for(const PaintedScene& painted, FeatureSet features
       source.kept.empty() || features == FeatureSet::ImageTruth ? "" : kept_file(painted, source);
   if (features != FeatureSet::ImageTruth && (file.empty() || !std::filesystem::exists(file))) {
     const EstimatePtr estimate =
-        run_estimator(painted.scene, find_estimator(source.method), {}, {}, Progress()).estimate;
+        source.method == kLabelingEstimator
+            ? estimate_for_labels(painted.scene, Device::Auto, Progress())
+            : run_estimator(painted.scene, find_estimator(source.method), {}, {}, Progress())
+                  .estimate;
     if (!file.empty()) io::write_result(file, *estimate, Progress());
     return {{estimate, &estimate->field}, source.method, estimate};
   }

@@ -377,9 +377,10 @@ void write_segmented(const ConvertRequest& request, io::LabelForm form, const Pr
   const LabelingPtr kept = read_kept_labels(request.input, progress.part(0, 0.2));
   io::LabelSource source{kept->labels, file.infos()};
   if (!request.truth.empty()) {
-    source.pictures = load_input_of({request.input, file.reading()}, request.truth, request.read,
-                                    progress.part(0.2, 0.4))
-                          .light_field;
+    const Scene scene = load_input_of({request.input, file.reading()}, request.truth, request.read,
+                                      progress.part(0.2, 0.4));
+    source.pictures = scene.light_field;
+    source.places = io::label_places(scene);
     for (int i = 0; i < source.maps.grid().count(); ++i) {
       (void)view_of(*source.pictures, source.maps.view_at(i));
     }
@@ -397,8 +398,10 @@ void write_labels_of_scene(const ConvertRequest& request, io::LabelForm form, Jo
   if (labels.empty()) {
     throw InvalidInput(request.input + " has no labels; name some with --labels");
   }
-  io::write_label_folder(request.output, form, {labels, scene.scribbles.labels, scene.light_field},
-                         progress.part(0.5, 1));
+  io::write_label_folder(
+      request.output, form,
+      {labels, scene.scribbles.labels, scene.light_field, io::label_places(scene)},
+      progress.part(0.5, 1));
 }
 
 /// Says that it is written, unless JSON does; returns that.

@@ -263,7 +263,8 @@ void LabelImporter::read(const QStringList& paths,
         for (const QString& file : files) places.push_back(path_of(file));
         auto labels = std::make_shared<io::ImportedLabels>(io::read_labels(
             places, *scene, {.known = {known.begin(), known.end()}, .ignored = ignored}, progress));
-        const std::string renumbered = io::renumber_labels(labels->scribbles, LabelSet::kMaxId);
+        const std::string renumbered =
+            io::renumber_labels(labels->scribbles, LabelSet::kMaxId, {known.begin(), known.end()});
         if (!renumbered.empty()) labels->notes.push_back(renumbered);
         const std::string unknown = unknown_labels_text(labels->scribbles, scene->truth->labels);
         if (!unknown.empty()) labels->notes.push_back(unknown);
@@ -483,12 +484,12 @@ void ask_to_export_labels(const Workbench& bench, const SegmentController& segme
 namespace {
 
 void write_folder(const std::filesystem::path& folder, const Segmentation& segmentation,
-                  const LabelTarget& target, const LightFieldPtr& field, const Progress& progress) {
+                  const LabelTarget& target, const Scene& scene, const Progress& progress) {
   const Labeling& labeling = *segmentation.labeling;
   const auto labels = finished_labels(labeling, segmentation.finish, progress.part(0, 0.3));
   io::write_label_folder(folder, target.form,
                          {labels, infos_of(labeling.probabilities.ids, segmentation.labels),
-                          target.has_views ? field : nullptr},
+                          target.has_views ? scene.light_field : nullptr, io::label_places(scene)},
                          progress.part(0.3, 1));
 }
 
@@ -508,9 +509,8 @@ void export_labels(const Workbench& bench, const SegmentController& segment, con
       io::write_picture(place, map_picture(*make_map(source), {}).view());
     };
   } else if (target.kind == Kind::Folder) {
-    write = [place, segmentation, target,
-             field = bench.session.light_field()](const Progress& progress) {
-      write_folder(place, *segmentation, target, field, progress);
+    write = [place, segmentation, target, scene = bench.session.scene()](const Progress& progress) {
+      write_folder(place, *segmentation, target, *scene, progress);
     };
   } else {
     if (!has_suffix(path, {"h5"}, bench.messages)) return;

@@ -175,11 +175,14 @@ SceneProbe probe_benchmark(const fs::path& folder, const OpenOptions& options) {
   return probe;
 }
 
-std::optional<Interval> promised_range(const ConfigFile& config) {
+std::optional<Interval> promised_range(const ConfigFile& config, ConventionReport& report) {
   const auto min = config.number("disp_min");
   const auto max = config.number("disp_max");
-  if (!min || !max || !(*min < *max)) return std::nullopt;
-  return Interval{*min, *max};
+  if (!min || !max) return std::nullopt;
+  if (*min < *max) return Interval{*min, *max};
+  report.warnings.push_back(
+      fmt::format(finding_text("config.no_range"), *min, *max, kBenchmarkConfig));
+  return std::nullopt;
 }
 
 /// A range that holds the truth only with the other sign has the other sign.
@@ -197,7 +200,12 @@ void correct_promise(const DisparityField& truth, std::optional<Interval>& promi
     return one.min - margin <= range.min && range.max <= one.max + margin;
   };
   const Interval reversed{-promised->max, -promised->min};
-  if (range.min > range.max || holds(*promised) || !holds(reversed)) return;
+  if (range.min > range.max || holds(*promised)) return;
+  if (!holds(reversed)) {
+    report.warnings.push_back(fmt::format(finding_text("config.range"), kBenchmarkConfig,
+                                          promised->min, promised->max, range.min, range.max));
+    return;
+  }
   promised = reversed;
   report.warnings.push_back(fmt::format(finding_text("config.sign"), kBenchmarkConfig));
 }
@@ -337,7 +345,7 @@ Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const P
                       {.reader = "benchmark2016", .options = {}}};
   if (config) {
     tell_values_without_number(*config, report);
-    info.disparity_range = promised_range(*config);
+    info.disparity_range = promised_range(*config, report);
   }
   progress.step("reading views");
   const auto show_center = [&](const Image<std::uint8_t>& center) {

@@ -39,9 +39,9 @@ def test_strokes_may_be_named_by_their_view(scene, strokes, labeling):
 
 
 def test_disparity_may_be_given(scene, strokes):
-    given = episcope.estimate(scene, "epi_c")
+    given = episcope.estimate(scene, "net", corners=False)
     one = episcope.label(scene, strokes, disparity=given, trees=16)
-    # epi_c is what estimates it by default.
+    # That is what estimates it by default.
     assert numpy.array_equal(one.labels, episcope.label(scene, strokes, trees=16).labels)
 
 
@@ -71,3 +71,8 @@ def test_labels_are_saved_and_replace_nothing_else(strokes, labeling, tmp_path):
     (tmp_path / "other.h5").write_text("mine")
     with pytest.raises(episcope.IoError, match="not a file of labels"):
         labeling.save(tmp_path / "other.h5")
+
+
+def test_ids_beyond_32_bits_are_refused(scene, strokes):
+    with pytest.raises(episcope.InvalidInput, match="at most 2147483646"):
+        episcope.label(scene, numpy.where(strokes > 0, strokes.astype("int64") + 2**32, 0), trees=16)

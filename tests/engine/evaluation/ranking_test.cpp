@@ -143,6 +143,15 @@ class RankingTest : public QObject {
              (std::vector<std::string>{"none", "3", "3.000", "not given", "not given", ""}));
   }
 
+  void overviewTable_namesWhatIsJudgedInParts() {
+    BenchmarkResult cut = result("cut", "x", 1), whole = result("whole", "x", 2);
+    cut.vmv2013.emplace_back("shown", 56.25);
+    whole.vmv2013.emplace_back("shown", 100);
+
+    const QString note = QString::fromStdString(overview_table({cut, whole}).note);
+    QVERIFY2(note.contains("a part of the pixels alone: cut on x (56.2 %)."), qPrintable(note));
+  }
+
   void tables_leaveOutWhatHasNoScore() {
     const auto tables = benchmark_tables({result("a", "x", 2)});
 

@@ -33,8 +33,9 @@ namespace fs = std::filesystem;
 constexpr std::int32_t kLargestIndex = 255;
 constexpr std::int32_t kLargestGray = 65535;
 
-std::string name_of(ViewIndex view) {
-  return fmt::format("{:02}_{:02}", view.v, view.u);
+std::string name_of(ViewIndex view, const LabelPlaces& places) {
+  if (places.names.empty()) return fmt::format("{:02}_{:02}", view.v, view.u);
+  return places.names[static_cast<std::size_t>(view.v * places.shape.grid.u + view.u)];
 }
 
 /// Labels that are painted or have a name, by id.
@@ -48,6 +49,9 @@ std::vector<LabelInfo> infos_of(const LabelSource& source) {
   }
   std::vector<LabelInfo> infos = source.infos;
   std::erase_if(infos, [](const LabelInfo& label) { return label.id <= 0; });
+  for (LabelInfo& label : infos) {
+    if (label.name.empty()) label.name = default_label(label.id).name;
+  }
   for (const std::int32_t id : ids) {
     if (std::ranges::find(infos, id, &LabelInfo::id) != infos.end()) continue;
     infos.push_back(default_label(id));
@@ -123,7 +127,7 @@ void write_views(const LabelFolder& folder, LabelForm form, const LabelSource& s
     progress.report(static_cast<double>(i) / count);
     progress.check();
     const ViewIndex view = source.maps.view_at(i);
-    const std::string name = name_of(view);
+    const std::string name = name_of(view, source.places);
     const std::string picture = name + ".png";
     const ImageView<const std::int32_t> labels = source.maps.view(view);
     if (form == LabelForm::Coco) {

@@ -5,6 +5,7 @@
 #include "engine/core/progress.h"
 #include "engine/core/scene.h"
 #include "engine/core/schema.h"
+#include "engine/io/models/labels/label_import.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -12,7 +13,8 @@
 
 namespace episcope::io {
 
-/// Folders in which other programs read labels. Views are named by row and column: `04_04`.
+/// Folders in which other programs read labels. Views are named like the files of the light field
+/// (`label_places`), else by row and column: `04_04`.
 enum class LabelForm {
   Indexed,  ///< `04_04.png`, whose pixels are ids, with a palette; `labelmap.txt`.
   Voc,     ///< The same in `SegmentationClass`; `ImageSets/Segmentation/default.txt`; `JPEGImages`.
@@ -26,6 +28,7 @@ struct LabelSource {
   const ViewStack<std::int32_t>& maps;  ///< 0 = unlabeled.
   std::vector<LabelInfo> infos{};       ///< Labels without are named after their ids.
   LightFieldPtr pictures{};  ///< Views to write beside the labels, in 8 bits; null = none.
+  LabelPlaces places{};      ///< Names of the views; none = row and column.
 };
 
 /// Writes a folder that `read_label_files` reads back exactly. Indexed pictures of ids above 255

@@ -2,6 +2,7 @@
 #include "engine/io/models/labels/label_import.h"
 
 #include "engine/core/error.h"
+#include "engine/core/finding.h"
 #include "engine/core/shear.h"
 #include "engine/core/text.h"
 #include "engine/io/base/files.h"
@@ -24,6 +25,7 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -168,6 +170,7 @@ struct Import {
   std::vector<LabelInfo> stated{};  ///< Names and colors by id.
   std::vector<ViewPicture> pictures{};
   std::vector<std::string> notes{};
+  bool in_order = false;  ///< Views are told by their order alone.
 
   void add(const fs::path& path, ViewIndex view, LabelPicture picture) {
     const FieldShape& shape = places.shape;
@@ -184,6 +187,15 @@ struct Import {
     const bool is_own = view_of_scribble_picture(path.filename().string()).has_value();
     pictures.push_back({path, view, std::move(picture), is_own});
   }
+  /// The center view. Says so if the name has numbers, of another view.
+  ViewIndex view_without_name(const fs::path& path) {
+    const ViewIndex center = places.shape.grid.center();
+    if (numbered_name(path.stem().string()).numbers.size() >= 2) {
+      notes.push_back(fmt::format(finding_text("labels.no_view"), path.filename().string(),
+                                  places.shape.grid.v, places.shape.grid.u, view_text(center)));
+    }
+    return center;
+  }
   /// All views, row by row, or one.
   void add_all(const NamedFile& file, std::vector<LabelPicture> maps) {
     const GridShape grid = places.shape.grid;
@@ -193,7 +205,8 @@ struct Import {
                                            "{}×{} views; save one or all of them",
                                            count, grid.v, grid.u));
     }
-    const ViewIndex alone = file.view.value_or(grid.center());
+    const ViewIndex alone = file.view ? *file.view : view_without_name(file.path);
+    if (count > 1) in_order = true;
     for (int i = 0; i < count; ++i) {
       add(file.path, count == 1 ? alone : grid.view_at(i),
           std::move(maps[static_cast<std::size_t>(i)]));
@@ -325,11 +338,18 @@ LabelArray find_array(const ArrayFile& file, const Hdf5Input* tagged, const Fiel
 
 ViewStack<std::int32_t> read_whole(const ArrayInput& array, const ArrayLayout& layout,
                                    const Progress& progress) {
-  if (!is_float(array.type())) return read_map_stack<std::int32_t>(array, layout, progress);
-  if (has_fractions(read_map_stack<float>(array, layout, progress))) {
+  if (is_float(array.type()) && has_fractions(read_map_stack<float>(array, layout, progress))) {
     throw IoError(array.path(), "labels are whole numbers, but this array has others; save labels");
   }
-  return read_map_stack<std::int32_t>(array, layout, progress);
+  ViewStack<std::int32_t> maps = read_map_stack<std::int32_t>(array, layout, progress);
+  constexpr std::int32_t kMost = std::numeric_limits<std::int32_t>::max();
+  if (std::find(maps.data(), maps.data() + maps.size(), kMost) != maps.data() + maps.size()) {
+    throw IoError(array.path(),
+                  fmt::format("ids of labels are at most {}, but this array has larger numbers; "
+                              "number the labels anew",
+                              kMost - 1));
+  }
+  return maps;
 }
 
 void add_array(Import& import, const NamedFile& file, const Progress& progress) {
@@ -368,7 +388,8 @@ void add_coco(Import& import, const fs::path& path, CocoLabels coco) {
   for (std::size_t i = 0; i < views.size(); ++i) {
     const auto place =
         std::ranges::find(coco.pictures, views[i].path.string(), &JsonPicture::file_name);
-    import.add(path, views[i].view.value_or(import.places.shape.grid.center()),
+    const auto& view = views[i].view;
+    import.add(path, view ? *view : import.view_without_name(views[i].path),
                picture_of(std::move(place->labels)));
     place->file_name.clear();  // another of that name is another picture
   }
@@ -387,9 +408,14 @@ void add_json(Import& import, const NamedFile& file) {
                   "is JSON, but neither of labelme (shapes) nor of COCO (images, "
                   "annotations); choose another file");
   }
-  const auto named = view_of_name(picture->file_name, import.places);
-  const ViewIndex view = file.view ? *file.view : named.value_or(import.places.shape.grid.center());
-  import.add(file.path, view, picture_of(std::move(picture->labels)));
+  std::optional<ViewIndex> view = file.view;
+  if (!view) view = view_of_name(picture->file_name, import.places);
+  if (!view) view = import.view_without_name(picture->file_name);
+  if (!picture->unseen.empty()) {
+    import.notes.push_back(fmt::format(finding_text("labels.shapes"), joined(picture->unseen, ", "),
+                                       file.path.filename().string()));
+  }
+  import.add(file.path, *view, picture_of(std::move(picture->labels)));
   import.stated = import.names.labels();
 }
 
@@ -452,6 +478,10 @@ bool holds_labels_only(const fs::path& path) {
 ImportedLabels read_label_files(const std::vector<fs::path>& paths, const LabelPlaces& places,
                                 const LabelReading& reading, const Progress& progress) {
   if (paths.empty()) throw InvalidInput("no file of labels was named");
+  for (const fs::path& path : paths) {
+    std::error_code ignored;
+    if (!fs::exists(path, ignored)) throw IoError(path, "there is no such file; check the path");
+  }
   const std::vector<fs::path> files = listed(paths);
   Import import{places, LabelNames(reading.known)};
   const std::vector<NamedFile> named = placed(files, places);
@@ -465,6 +495,7 @@ ImportedLabels read_label_files(const std::vector<fs::path>& paths, const LabelP
   if (!import.stated.empty()) known.stated = std::move(import.stated);
   ImportedLabels labels = labels_of_pictures(std::move(import.pictures), known, paths.front());
   labels.notes.insert(labels.notes.end(), import.notes.begin(), import.notes.end());
+  labels.in_order = import.in_order;
   return labels;
 }
 
@@ -490,7 +521,8 @@ std::vector<std::string> names_of_views(const Scene& scene) {
   } catch (const Error&) {
     names.clear();  // read by a pattern that the user named
   }
-  return names;
+  const bool are_distinct = std::set(names.begin(), names.end()).size() == names.size();
+  return are_distinct ? names : std::vector<std::string>();
 }
 
 Scribbles scribbles_of(const ViewStack<std::int32_t>& maps) {
@@ -542,6 +574,11 @@ std::optional<Scribbles> read_own_labels(const fs::path& path, const Scene& scen
 
 }  // namespace
 
+LabelPlaces label_places(const Scene& scene) {
+  const LightField& field = *scene.light_field;
+  return {{field.grid(), field.height(), field.width()}, names_of_views(scene)};
+}
+
 ImportedLabels read_labels(const std::vector<fs::path>& paths, const Scene& scene,
                            const LabelReading& reading, const Progress& progress) {
   if (paths.size() == 1) {
@@ -549,8 +586,10 @@ ImportedLabels read_labels(const std::vector<fs::path>& paths, const Scene& scen
     if (own) return {std::move(*own), {}};
   }
   const LightField& field = *scene.light_field;
-  const LabelPlaces places{{field.grid(), field.height(), field.width()}, names_of_views(scene)};
-  ImportedLabels labels = read_label_files(paths, places, reading, progress);
+  ImportedLabels labels = read_label_files(paths, label_places(scene), reading, progress);
+  if (labels.in_order && flip_of(scene.convention) != ViewFlip{}) {
+    labels.notes.push_back(fmt::format(finding_text("labels.order"), scene.convention.order));
+  }
   const double focus_px = scene.convention.focus_px;
   if (focus_px != 0) labels.scribbles = sheared(labels.scribbles, field.center(), focus_px);
   return labels;
@@ -569,8 +608,10 @@ ViewStack<std::int32_t> stack_of(const Scribbles& labels, const FieldShape& shap
   return maps;
 }
 
-std::string renumber_labels(Scribbles& labels, std::int32_t most) {
+std::string renumber_labels(Scribbles& labels, std::int32_t most,
+                            const std::vector<LabelInfo>& taken) {
   std::set<std::int32_t> used;
+  for (const LabelInfo& label : taken) used.insert(std::min(label.id, most));
   for (const ViewScribbles& one : labels.views) used.insert(one.labels.begin(), one.labels.end());
   std::map<std::int32_t, std::int32_t> ids;
   std::int32_t next = 1;

@@ -21,6 +21,10 @@ struct LabelPlaces {
   std::vector<std::string> names{};
 };
 
+/// Of an open light field. Names are known where its views are files of one folder that tell rows
+/// and columns.
+[[nodiscard]] LabelPlaces label_places(const Scene& scene);
+
 /// Whether a file holds labels and no light field, by its name or, of arrays, by what is in it: a
 /// picture, JSON, `.npy` of at most four axes, labels in HDF5.
 [[nodiscard]] bool holds_labels_only(const std::filesystem::path& path);
@@ -35,12 +39,13 @@ struct LabelPlaces {
 ///
 /// A file of one view belongs to the view whose file has its name (`LabelPlaces::names`), else to
 /// the one whose row and column are the last two numbers of its name ("04_05_labels.png"). A file
-/// alone that tells neither is of the center view; several that tell nothing are all views, by
-/// their running number. Of a folder, all files of labels in it are read: of `scribbles_VV_UU.png`
-/// only those, of a VOC folder those in `SegmentationClass`, of a COCO folder those in
-/// `annotations`. Colors of `labelmap.txt` beside them count where no table is given. Throws
-/// IoError that says what is expected: no labels, another size than the views have, fractions, a
-/// JPEG picture, several arrays that fit. Throws Cancelled.
+/// alone that tells neither is of the center view, with a note if its numbers are of no view;
+/// several that tell nothing are all views, by their running number. Of a folder, all files of
+/// labels in it are read: of `scribbles_VV_UU.png` only those, of a VOC folder those in
+/// `SegmentationClass`, of a COCO folder those in `annotations`. Colors of `labelmap.txt` beside
+/// them count where no table is given. Throws IoError that says what is expected: no labels,
+/// another size than the views have, fractions, a JPEG picture, several arrays that fit. Throws
+/// Cancelled.
 [[nodiscard]] ImportedLabels read_label_files(const std::vector<std::filesystem::path>& paths,
                                               const LabelPlaces& places,
                                               const LabelReading& reading = {},
@@ -56,9 +61,10 @@ struct LabelPlaces {
 /// Labels as maps: of all views, 0 in those without labels, or of the only one.
 [[nodiscard]] ViewStack<std::int32_t> stack_of(const Scribbles& labels, const FieldShape& shape);
 
-/// Gives ids above `most` free ids from 1 to `most`, smallest first, and names them by their former
-/// ids. Returns a sentence about them; empty if there are none. Throws InvalidInput if there are
-/// more labels than ids.
-std::string renumber_labels(Scribbles& labels, std::int32_t most);
+/// Gives ids above `most` free ids from 1 to `most` that are not `taken`, smallest first, and names
+/// them by their former ids. Returns a sentence about them; empty if there are none. Throws
+/// InvalidInput if there are more labels than ids.
+std::string renumber_labels(Scribbles& labels, std::int32_t most,
+                            const std::vector<LabelInfo>& taken = {});
 
 }  // namespace episcope::io

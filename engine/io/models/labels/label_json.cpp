@@ -153,8 +153,16 @@ JsonPicture labelme_of(const fs::path& path, const Json& json, LabelNames& names
   }
   JsonPicture picture{json.value("imagePath", ""),
                       empty_map(json.at("imageHeight"), json.at("imageWidth"))};
+  std::map<std::string, std::int32_t> drawn;
   for (const Json& shape : json.at("shapes")) {
-    draw_shape(path, shape, picture.labels, names.id_of(shape.at("label").get<std::string>()));
+    const auto name = shape.at("label").get<std::string>();
+    drawn[name] = names.id_of(name);
+    draw_shape(path, shape, picture.labels, drawn[name]);
+  }
+  for (const auto& [name, id] : drawn) {
+    if (std::ranges::find(picture.labels, id) == picture.labels.end()) {
+      picture.unseen.push_back(name);
+    }
   }
   return picture;
 }

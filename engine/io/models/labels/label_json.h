@@ -17,6 +17,7 @@ namespace episcope::io {
 struct JsonPicture {
   std::string file_name;  ///< Of the picture; may be empty.
   Image<std::int32_t> labels;
+  std::vector<std::string> unseen{};  ///< Names of shapes that no pixel belongs to.
 };
 
 /// Ids of labels that files know by name: of `known` labels, else free ones in the order in which

@@ -42,6 +42,7 @@ struct LabelReading {
 struct ImportedLabels {
   Scribbles scribbles;             ///< With names and colors where the files tell them.
   std::vector<std::string> notes;  ///< How pixels were understood, as sentences.
+  bool in_order = false;           ///< Only their order in a file tells their views.
 };
 
 /// A picture of labels and its view.

@@ -193,6 +193,7 @@ class RunBlocksTest : public QObject {
   void centerOnly_equalsTheRunAtOnce();
   void profileOfThePaper_equalsTheRunAtOnce_data() { add_methods("profile"); }
   void profileOfThePaper_equalsTheRunAtOnce();
+  void viewsCarriedFromOne_equalTheRunAtOnce();
   void invalidPixels_areMarkedAlike_data() { add_methods(); }
   void invalidPixels_areMarkedAlike();
   void singleRowOrColumnOfViews_equalsTheRunAtOnce_data() { add_methods(); }
@@ -234,6 +235,13 @@ void RunBlocksTest::profileOfThePaper_equalsTheRunAtOnce() {
 
   QVERIFY(agrees(*scene.light_field, fetched(), {{"profile", std::string("paper")}},
                  ViewSelection::All, 10));
+}
+
+void RunBlocksTest::viewsCarriedFromOne_equalTheRunAtOnce() {
+  const Scene scene = scene_of({5, 5});
+
+  QVERIFY(agrees(*scene.light_field, find_estimator("net"), {{"corners", false}},
+                 ViewSelection::All, 23));
 }
 
 void RunBlocksTest::invalidPixels_areMarkedAlike() {

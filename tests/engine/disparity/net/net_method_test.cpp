@@ -80,7 +80,7 @@ class NetMethodTest : public QObject {
   void changedWeights_areReadAgain();
   void narrowRange_isWidened();
   void allViews_areClose();
-  void finish_givesAllViews();
+  void finish_givesAllViews_asWithoutCorners();
   void threads_changeNothing();
 };
 
@@ -198,14 +198,16 @@ void NetMethodTest::allViews_areClose() {
            0.0);
 }
 
-void NetMethodTest::finish_givesAllViews() {
+void NetMethodTest::finish_givesAllViews_asWithoutCorners() {
   std::stop_source finish;
   finish.request_stop();
 
-  const Estimate all = estimated({}, ViewSelection::All, Progress({}, finish.get_token(), {}));
+  const Estimate ended = estimated({}, ViewSelection::All, Progress({}, finish.get_token(), {}));
+  const Estimate all = estimated({.has_corners = false}, ViewSelection::All);
 
   QCOMPARE(all.field.disparity.grid().count(), 25);
   QVERIFY(QString::fromStdString(all.notes.back()).contains("from 1 of them"));
+  QVERIFY(same_bytes(all.field.disparity, ended.field.disparity));
 }
 
 void NetMethodTest::threads_changeNothing() {

@@ -154,6 +154,21 @@ class BenchmarkFolderTest : public QObject {
     QVERIFY2(warns_of(scene, "the other sign"), warnings_of(scene).c_str());
   }
 
+  void rangeWithoutTheTruth_isTold() {
+    write_views("");
+    write_truth("gt_disp_lowres.pfm", 1);
+    const auto warns = [this](const std::string& range, const char* words) {
+      std::ofstream(folder_->path("parameters.cfg")) << "num_cams_x = 3\nnum_cams_y = 3\n"
+                                                     << range << '\n';
+      const Scene scene = folder_->open();
+      return warns_of(scene, words);
+    };
+
+    QVERIFY(warns("disp_min = -0.1\ndisp_max = 0.1", "but the truth has"));
+    QVERIFY(!warns("disp_min = -2\ndisp_max = 2", "but the truth has"));
+    QVERIFY(warns("disp_min = 2\ndisp_max = -2", "is not below disp_max"));
+  }
+
   void rowsAndColumnsOfViews_areThoseThatTheViewsShow_data() {
     QTest::addColumn<bool>("is_by_columns");
     QTest::newRow("numbers of cameras exchanged") << false;

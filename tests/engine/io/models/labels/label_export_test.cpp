@@ -102,6 +102,53 @@ class LabelExportTest : public QObject {
     QCOMPARE(label->color, (Rgb{0, 200, 0}));
   }
 
+  // Files of views count from 1, or columns from the right.
+  void viewsOfOtherNames_comeBack_data() { everyForm_comesBack_data(); }
+  void viewsOfOtherNames_comeBack() {
+    QFETCH(int, form);
+    QFETCH(int, largest);
+    const auto maps = noise(largest);
+    for (const std::vector<std::string>& names :
+         {std::vector<std::string>{"01_01", "01_02", "01_03", "02_01", "02_02", "02_03"},
+          std::vector<std::string>{"00_02", "00_01", "00_00", "01_02", "01_01", "01_00"}}) {
+      const io::LabelPlaces places{kPlaces.shape, names};
+      const std::filesystem::path folder = path(names.front());
+
+      io::write_label_folder(folder, static_cast<io::LabelForm>(form),
+                             {maps, kInfos, gray_field(), places}, Progress());
+      const io::ImportedLabels read = io::read_label_files({folder}, places);
+
+      const auto back = io::stack_of(read.scribbles, places.shape);
+      QVERIFY(std::equal(maps.data(), maps.data() + maps.size(), back.data()));
+    }
+  }
+
+  void labelsWithoutAName_getOne() {
+    const auto maps = noise(7);
+
+    io::write_label_folder(path("out"), io::LabelForm::Indexed, {maps, {{1, "", {9, 9, 9}}}},
+                           Progress());
+
+    const auto read = io::read_label_files({path("out")}, kPlaces);
+    const auto label = std::ranges::find(read.scribbles.labels, 1, &LabelInfo::id);
+    QVERIFY(label != read.scribbles.labels.end());
+    QCOMPARE(label->name, default_label(1).name);
+  }
+
+  void shapesOutsideOfThePicture_areNamed() {
+    write_text(path("view.json"), R"({"shapes": [
+      {"label": "seen", "points": [[1, 1], [5, 1], [5, 4]], "shape_type": "polygon"},
+      {"label": "gone", "points": [[90, 90], [95, 90], [95, 95]], "shape_type": "polygon"}],
+      "imagePath": "00_00.png", "imageHeight": 14, "imageWidth": 18})");
+
+    const auto read = io::read_label_files({path("view.json")}, kPlaces);
+
+    const auto is_named = [](const std::string& note) {
+      return note.find("belongs to gone in view.json") != std::string::npos;
+    };
+    QCOMPARE(std::ranges::count_if(read.notes, is_named), 1);
+  }
+
   void filesInAFolder_areNotReplaced() {
     std::filesystem::create_directory(path("out"));
     write_text(path("out/mine.txt"), "mine");

@@ -175,6 +175,10 @@ class LabelImportTest : public QObject {
     const io::LabelPlaces named{kPlaces.shape, {"a", "b", "photo", "d", "e", "f", "g", "h", "i"}};
     QCOMPARE(io::read_label_files({path("photo.png")}, named).scribbles.views[0].view,
              (ViewIndex{0, 2}));
+    QVERIFY(!told(io::read_label_files({path("photo.png")}, kPlaces)).contains("names none"));
+    colored("07_09.png", {1, 1, 1}, {2, 2, 2});
+    const QString note = told(io::read_label_files({path("07_09.png")}, kPlaces));
+    QVERIFY2(note.contains("07_09.png names none of the 3×3 views"), qPrintable(note));
     const QString sentence = refusal({path("mask_02_01.png"), path("photo.png")});
     QVERIFY2(sentence.contains("photo.png") && sentence.contains("03_04.png"),
              qPrintable(sentence));
@@ -251,6 +255,9 @@ class LabelImportTest : public QObject {
     std::vector<float> halves(24, 0.5F);
     io::write_npy<float>(path("halves.npy"), {4, 6}, halves);
     QVERIFY(refusal({path("halves.npy")}).contains("whole numbers"));
+    io::write_npy<float>(path("huge.npy"), {4, 6}, std::vector<float>(24, 4294967296.0F));
+    QVERIFY(refusal({path("huge.npy")}).contains("at most 2147483646"));
+    QVERIFY(refusal({path("nothing.png")}).contains("no such file"));
     std::ofstream(path("damaged.tif"), std::ios::binary) << std::string("II*\0\x08\0\0\0", 8);
     QVERIFY(refusal({path("damaged.tif")}).contains("damaged"));
   }
@@ -263,6 +270,10 @@ class LabelImportTest : public QObject {
     QCOMPARE(row_of(labels), QString("0 1 0 2 3 0"));
     QCOMPARE(labels.scribbles.labels.at(0).name, std::string("label 40000"));
     QVERIFY(sentence.find("40000 is 3") != std::string::npos);
+
+    auto beside = io::read_label_files({tool_file("u16.png")}, kPlaces);
+    (void)io::renumber_labels(beside.scribbles, 255, {{3, "painted before", {}}});
+    QCOMPARE(row_of(beside), QString("0 1 0 2 4 0"));
   }
 };
 
