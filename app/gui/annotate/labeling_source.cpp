@@ -1,9 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/annotate/labeling_source.h"
 
+#include "app/session/run_estimator.h"
 #include "engine/core/error.h"
+#include "engine/disparity/registry.h"
 
 namespace episcope {
+namespace {
+
+// It is waited for while painting: this takes seconds, better methods half a minute.
+constexpr const char* kQuickEstimator = "epi_s";
+
+}  // namespace
 
 LabelingSource::LabelingSource(Session& session, Jobs& jobs, QObject* parent)
     : QObject(parent), session_(session), jobs_(jobs) {
@@ -87,15 +95,15 @@ void LabelingSource::provide() {
     return;
   }
   own_[generation] = {};
-  job_ = jobs_.start<EstimatePtr>(
+  job_ = jobs_.start<FinishedEstimate>(
       Lane::Estimate, job_title(tr("Disparity for labels"), session_),
       [scene](const Progress& progress) {
-        return estimate_for_labels(*scene, Device::Auto, progress);
+        return run_estimator(*scene, find_estimator(kQuickEstimator), {}, {}, progress);
       },
-      [this, generation](const EstimatePtr& estimate) {
+      [this, generation](const FinishedEstimate& finished) {
         const auto own = own_.find(generation);
         if (own == own_.end()) return;
-        own->second = disparity_of(estimate, kLabelingEstimator);
+        own->second = disparity_of(finished.estimate, kQuickEstimator);
         session_.set_label_disparity(generation, own->second.field);
       },
       [this] { emit changed(); });

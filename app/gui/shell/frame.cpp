@@ -162,14 +162,15 @@ void Frame::addTab(const Tab& tab) {
   tabs_.push_back(tab);
   if (!tab.task.isEmpty()) {
     panes_->add({pane_id(tab.id), tab.title, tab.widget, [this, id = tab.id] { showTab(id); }});
-    tab.waits ? keepAside(tab.widget)
-              : void(pagesOf(*findTab(tab.task))->addTab(tab.widget, tab.title));
+    if (tab.waits) return keepAside(tab.widget);
+    pagesOf(*findTab(tab.task))->addTab(tab.widget, tab.title);
     return;
   }
   QWidget* pane = tab.page.isEmpty() ? tab.widget : makePages(tab);
   panes_->add({pane_id(tab.id), tab.title, pane, [this, id = tab.id] { putInBook(*findTab(id)); },
                tab.widget});
-  tab.waits ? keepAside(pane) : void(book_->addTab(pane, tab.title));
+  if (tab.waits) return keepAside(pane);
+  book_->addTab(pane, tab.title);
 }
 
 // Not among the others, invisible: behind an invisible last one, Qt scrolls too far.
