@@ -413,6 +413,20 @@ py::array array_of(const Image<float>& image) {
   return py::array_t<float>(Lengths{image.height(), image.width(), image.channels()}, image.data());
 }
 
+namespace {
+
+/// Whole numbers beyond 32 bits would become others.
+void require_ids(const py::array& numbers, const std::string& what) {
+  constexpr std::int32_t kMost = std::numeric_limits<std::int32_t>::max() - 1;
+  if (numbers.size() == 0) return;
+  const auto largest = py::cast<double>(numbers.attr("max")());
+  if (largest <= kMost) return;
+  throw InvalidInput(fmt::format("{} hold {:.0f}, but at most {} is expected; number them anew",
+                                 what, largest, kMost));
+}
+
+}  // namespace
+
 template <class T>
 OrderedArray<T> numbers_from(const py::object& array, const std::string& what) {
   constexpr bool is_whole = std::is_integral_v<T>;
@@ -424,19 +438,13 @@ OrderedArray<T> numbers_from(const py::object& array, const std::string& what) {
   }
   const auto given = py::array::ensure(array);
   if (given && kinds.find(given.dtype().kind()) != std::string::npos) {
-    if (is_whole && given.size() > 0 && given.itemsize() > static_cast<py::ssize_t>(sizeof(T))) {
-      const auto largest = py::cast<double>(given.attr("max")());
-      if (largest >= std::numeric_limits<std::int32_t>::max()) {
-        throw InvalidInput(
-            fmt::format("{} hold {:.0f}, but at most {} is expected; number them anew", what,
-                        largest, std::numeric_limits<std::int32_t>::max() - 1));
-      }
-    }
+    if (is_whole) require_ids(given, what);
     return OrderedArray<T>(given);
   }
   if (is_whole && given && given.dtype().kind() == 'f') {  // as MATLAB stores whole numbers
     const auto numpy = py::module_::import("numpy");
     if (py::cast<bool>(numpy.attr("array_equal")(given, numpy.attr("rint")(given)))) {
+      require_ids(given, what);
       return OrderedArray<T>(py::array(given.attr("astype")("int32")));
     }
   }

@@ -9099,10 +9099,6 @@ s</translation>
         <source>%1, other values as in Method</source>
         <translation>%1, andere Werte wie unter Methode</translation>
     </message>
-    <message>
-        <source>The light field is still loading.</source>
-        <translation>Das Lichtfeld wird noch geladen.</translation>
-    </message>
 </context>
 <context>
     <name>episcope::SweepPanel</name>

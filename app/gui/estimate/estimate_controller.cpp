@@ -119,7 +119,7 @@ EstimateController::EstimateController(const Workbench& bench)
   connectResults();
   connect(&runs_, &MethodRuns::changed, this, &EstimateController::showRunning);
   connect(&bench.viewer_area, &ViewerArea::previewChanged, this, [this] {
-    showWhetherItCanRun();
+    method_->setRunBlocked(why_nothing_runs(bench_));
     bench_.commands.refresh();
   });
   connect(&bench.opener, &SceneOpener::opened, this, &EstimateController::runFirst);
@@ -226,15 +226,10 @@ void EstimateController::run(const EstimateRequest& request) {
     runs_.run(request, *shown);
 }
 
-// Not on a light field that the one being read has covered.
-bool EstimateController::canRun() const {
-  return session_.scene() && !bench_.viewer_area.isPreviewing();
-}
-
-void EstimateController::showWhetherItCanRun() {
-  method_->setRunBlocked(canRun()           ? QString()
-                         : session_.scene() ? tr("The light field is still loading.")
-                                            : tr("Open a light field first."));
+QString why_nothing_runs(const Workbench& bench) {
+  if (!bench.session.scene()) return EstimateController::tr("Open a light field first.");
+  if (!bench.viewer_area.isPreviewing()) return {};
+  return EstimateController::tr("The light field is still loading.");
 }
 
 void EstimateController::showRunning() {
@@ -291,7 +286,7 @@ void EstimateController::update(Parts parts) {
                   [this](const Removed& each) { return !session_.find_scene(each.scene); });
   }
   if (parts.has(Part::Scene)) {
-    showWhetherItCanRun();
+    method_->setRunBlocked(why_nothing_runs(bench_));
     showRunning();
   }
   if (parts.has_any(Part::Scene | Part::Estimates | Part::Evaluations | Part::View | Part::Live)) {
@@ -372,7 +367,7 @@ constexpr int kResultSection = 1;
 
 void EstimateController::addCommands() {
   const auto has_scene = [this] { return session_.scene() != nullptr; };
-  const auto can_run = [this] { return canRun(); };
+  const auto can_run = [this] { return why_nothing_runs(bench_).isEmpty(); };
   bench_.commands.add({.id = "estimate.run",
                        .menu = Menu::Estimate,
                        .text = tr("Run"),

@@ -56,8 +56,6 @@ class EstimateController : public QObject {
   void connectResults();
   void update(Parts parts);
   void showChoice();
-  [[nodiscard]] bool canRun() const;
-  void showWhetherItCanRun();
   void showRunning();
   void listResults();
   [[nodiscard]] ResultRow rowOf(const EstimateEntry& entry) const;
@@ -74,6 +72,10 @@ class EstimateController : public QObject {
   std::vector<Removed> removed_;  // the latest last
   bool is_settled_ = true;        // no earlier work is offered
 };
+
+/// Why no method runs on the light field in front: there is none, or the one being read covers it.
+/// Empty if methods can run.
+[[nodiscard]] QString why_nothing_runs(const Workbench& bench);
 
 /// `range` with one end moved to a disparity. The other end stays, or is set 0.5 px away if it is
 /// unknown or on the wrong side. Rounds outwards to 0.01 px.

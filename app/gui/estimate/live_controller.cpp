@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/estimate/live_controller.h"
 
+#include "app/gui/estimate/estimate_controller.h"
 #include "app/gui/scene/overlay.h"
 #include "app/gui/scene/scene_opener.h"
 #include "app/gui/scene/viewer_area.h"
@@ -66,10 +67,7 @@ void LiveController::addCommand() {
        .keys = {tr("Ctrl+L")},
        .run = [this] { setOn(!is_on_); },
        .section = kRunSection,
-       .enabled =
-           [this] {
-             return is_on_ || (bench_.session.scene() && !bench_.viewer_area.isPreviewing());
-           },
+       .enabled = [this] { return is_on_ || why_nothing_runs(bench_).isEmpty(); },
        .checked = [this] { return is_on_; }});
   method_.followLiveTip(action);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/estimate/sweep_controller.h"
 
+#include "app/gui/estimate/estimate_controller.h"
 #include "app/gui/estimate/live_controller.h"
 #include "app/gui/scene/overlay.h"
 #include "app/gui/scene/scene_opener.h"
@@ -286,10 +287,8 @@ SweepController::Planned SweepController::planned() const {
 }
 
 void SweepController::showPlan() {
-  if (!bench_.session.scene()) return panel_->setPlan(tr("Open a light field first."), false);
-  if (bench_.viewer_area.isPreviewing()) {
-    return panel_->setPlan(tr("The light field is still loading."), false);
-  }
+  const QString reason = why_nothing_runs(bench_);
+  if (!reason.isEmpty()) return panel_->setPlan(reason, false);
   try {
     const Planned plan = planned();
     const auto count = plan.points.size();

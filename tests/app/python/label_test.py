@@ -76,3 +76,5 @@ def test_labels_are_saved_and_replace_nothing_else(strokes, labeling, tmp_path):
 def test_ids_beyond_32_bits_are_refused(scene, strokes):
     with pytest.raises(episcope.InvalidInput, match="at most 2147483646"):
         episcope.label(scene, numpy.where(strokes > 0, strokes.astype("int64") + 2**32, 0), trees=16)
+    with pytest.raises(episcope.InvalidInput, match="at most 2147483646"):
+        episcope.label(scene, numpy.where(strokes > 0, strokes.astype(float) + 2**32, 0), trees=16)
