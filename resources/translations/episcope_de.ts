@@ -728,10 +728,6 @@
         <translation>%1 · %2 Dreiecke</translation>
     </message>
     <message>
-        <source>Open a light field first.</source>
-        <translation>Erst ein Lichtfeld öffnen.</translation>
-    </message>
-    <message>
         <source>corner</source>
         <translation>Ecke</translation>
     </message>
@@ -1228,10 +1224,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
 </context>
 <context>
     <name>episcope::CloudRequests</name>
-    <message>
-        <source>Open a light field first.</source>
-        <translation>Erst ein Lichtfeld öffnen.</translation>
-    </message>
     <message>
         <source>Run a method: its disparity appears here in 3D.</source>
         <translation>Ein Verfahren ausführen: seine Disparität erscheint hier in 3D.</translation>
@@ -1921,10 +1913,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>Undo</source>
         <translation>Rückgängig</translation>
-    </message>
-    <message>
-        <source>Open a light field first.</source>
-        <translation>Erst ein Lichtfeld öffnen.</translation>
     </message>
     <message>
         <source>Copied: %1</source>
@@ -4189,10 +4177,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>No region of this view is in doubt.</source>
         <translation>Kein Gebiet dieser Ansicht ist zweifelhaft.</translation>
-    </message>
-    <message>
-        <source>Open a light field first.</source>
-        <translation>Erst ein Lichtfeld öffnen.</translation>
     </message>
     <message>
         <source>%1 of %2: %3 pixels of %4 may be %5. A stroke here decides; Return keeps the label, 1 … 9 give it another.</source>
@@ -8509,10 +8493,6 @@ s</translation>
         <translation>Wahrscheinlichkeit von „%1“</translation>
     </message>
     <message>
-        <source>Open a light field first.</source>
-        <translation>Erst ein Lichtfeld öffnen.</translation>
-    </message>
-    <message>
         <source>There is no ground-truth disparity for all views: labels are based on the images alone.</source>
         <translation>Es gibt keine Referenz-Disparität für alle Ansichten: die Labels beruhen nur auf den Bildern.</translation>
     </message>
@@ -9034,10 +9014,6 @@ s</translation>
     <message>
         <source>This method has no number that could be varied.</source>
         <translation>Dieses Verfahren hat keine Zahl, die sich variieren ließe.</translation>
-    </message>
-    <message>
-        <source>Open a light field first.</source>
-        <translation>Erst ein Lichtfeld öffnen.</translation>
     </message>
     <message>
         <source>%1: %2</source>
@@ -9660,6 +9636,17 @@ s</translation>
     <message>
         <source>Opening …</source>
         <translation>Wird geöffnet …</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::ViewerArea</name>
+    <message>
+        <source>Open a light field first.</source>
+        <translation>Erst ein Lichtfeld öffnen.</translation>
+    </message>
+    <message>
+        <source>The light field is still loading.</source>
+        <translation>Das Lichtfeld wird noch geladen.</translation>
     </message>
 </context>
 <context>

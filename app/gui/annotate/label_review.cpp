@@ -176,7 +176,7 @@ void LabelReviewController::show() {
   if (!review_) {
     panel_->setNote(subject_ ? QString()
                     : !bench_.session.scene()
-                        ? tr("Open a light field first.")
+                        ? open_a_light_field()
                         : tr("Nothing is segmented yet: paint two labels, then update the "
                              "segmentation."));
     panel_->setDoubts({});

@@ -2,6 +2,7 @@
 #include "app/gui/annotate/segment_controller.h"
 
 #include "app/gui/annotate/annotation_files.h"
+#include "app/gui/scene/viewer_area.h"
 #include "app/gui/shell/commands.h"
 #include "app/gui/shell/frame.h"
 #include "widgets/controls/text.h"
@@ -298,7 +299,7 @@ void SegmentController::setLive(bool is_live) {
 
 void SegmentController::updateNow() {
   if (!live_.has_input()) {
-    bench_.messages.hint(tr("Open a light field first."));
+    bench_.messages.hint(open_a_light_field());
     return;
   }
   is_wanted_ = wants_to_show_ = true;

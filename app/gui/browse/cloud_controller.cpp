@@ -2,6 +2,7 @@
 #include "app/gui/browse/cloud_controller.h"
 
 #include "app/gui/scene/overlay.h"
+#include "app/gui/scene/viewer_area.h"
 #include "app/gui/shell/commands.h"
 #include "app/gui/shell/dialogs.h"
 #include "app/gui/shell/frame.h"
@@ -290,7 +291,7 @@ std::shared_ptr<const DisparityField> field_of(const EstimatePtr& estimate) {
 
 QString CloudRequests::obstacle() const {
   const Session& session = bench_.session;
-  if (!session.scene()) return CloudRequestsText::tr("Open a light field first.");
+  if (!session.scene()) return open_a_light_field();
   if (result() || truth()) return {};
   const EstimateEntry* shown = session.side_a();
   if (!shown) return CloudRequestsText::tr("Run a method: its disparity appears here in 3D.");

@@ -141,7 +141,7 @@ namespace {
 
 // Why there is no pose; empty = there can be one.
 QString obstacle(const Session& session) {
-  if (!session.scene()) return CaptureController::tr("Open a light field first.");
+  if (!session.scene()) return open_a_light_field();
   if (!session.light_field()->info().camera.pinhole) {
     return CaptureController::tr(
         "This light field does not tell its focal length and center in pixels, which a pose "

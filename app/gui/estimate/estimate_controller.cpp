@@ -119,7 +119,7 @@ EstimateController::EstimateController(const Workbench& bench)
   connectResults();
   connect(&runs_, &MethodRuns::changed, this, &EstimateController::showRunning);
   connect(&bench.viewer_area, &ViewerArea::previewChanged, this, [this] {
-    method_->setRunBlocked(why_nothing_runs(bench_));
+    method_->setRunBlocked(why_nothing_runs(bench_.session, bench_.viewer_area));
     bench_.commands.refresh();
   });
   connect(&bench.opener, &SceneOpener::opened, this, &EstimateController::runFirst);
@@ -226,12 +226,6 @@ void EstimateController::run(const EstimateRequest& request) {
     runs_.run(request, *shown);
 }
 
-QString why_nothing_runs(const Workbench& bench) {
-  if (!bench.session.scene()) return EstimateController::tr("Open a light field first.");
-  if (!bench.viewer_area.isPreviewing()) return {};
-  return EstimateController::tr("The light field is still loading.");
-}
-
 void EstimateController::showRunning() {
   const bool is_running = runs_.isRunning(session_.generation());
   method_->setRunning(is_running);
@@ -286,7 +280,7 @@ void EstimateController::update(Parts parts) {
                   [this](const Removed& each) { return !session_.find_scene(each.scene); });
   }
   if (parts.has(Part::Scene)) {
-    method_->setRunBlocked(why_nothing_runs(bench_));
+    method_->setRunBlocked(why_nothing_runs(bench_.session, bench_.viewer_area));
     showRunning();
   }
   if (parts.has_any(Part::Scene | Part::Estimates | Part::Evaluations | Part::View | Part::Live)) {
@@ -367,7 +361,9 @@ constexpr int kResultSection = 1;
 
 void EstimateController::addCommands() {
   const auto has_scene = [this] { return session_.scene() != nullptr; };
-  const auto can_run = [this] { return why_nothing_runs(bench_).isEmpty(); };
+  const auto can_run = [this] {
+    return why_nothing_runs(bench_.session, bench_.viewer_area).isEmpty();
+  };
   bench_.commands.add({.id = "estimate.run",
                        .menu = Menu::Estimate,
                        .text = tr("Run"),

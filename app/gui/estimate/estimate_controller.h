@@ -73,10 +73,6 @@ class EstimateController : public QObject {
   bool is_settled_ = true;        // no earlier work is offered
 };
 
-/// Why no method runs on the light field in front: there is none, or the one being read covers it.
-/// Empty if methods can run.
-[[nodiscard]] QString why_nothing_runs(const Workbench& bench);
-
 /// `range` with one end moved to a disparity. The other end stays, or is set 0.5 px away if it is
 /// unknown or on the wrong side. Rounds outwards to 0.01 px.
 enum class RangeEnd { Lower, Upper };

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/estimate/live_controller.h"
 
-#include "app/gui/estimate/estimate_controller.h"
 #include "app/gui/scene/overlay.h"
 #include "app/gui/scene/scene_opener.h"
 #include "app/gui/scene/viewer_area.h"
@@ -67,7 +66,10 @@ void LiveController::addCommand() {
        .keys = {tr("Ctrl+L")},
        .run = [this] { setOn(!is_on_); },
        .section = kRunSection,
-       .enabled = [this] { return is_on_ || why_nothing_runs(bench_).isEmpty(); },
+       .enabled =
+           [this] {
+             return is_on_ || why_nothing_runs(bench_.session, bench_.viewer_area).isEmpty();
+           },
        .checked = [this] { return is_on_; }});
   method_.followLiveTip(action);
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/estimate/sweep_controller.h"
 
-#include "app/gui/estimate/estimate_controller.h"
 #include "app/gui/estimate/live_controller.h"
 #include "app/gui/scene/overlay.h"
 #include "app/gui/scene/scene_opener.h"
@@ -287,7 +286,7 @@ SweepController::Planned SweepController::planned() const {
 }
 
 void SweepController::showPlan() {
-  const QString reason = why_nothing_runs(bench_);
+  const QString reason = why_nothing_runs(bench_.session, bench_.viewer_area);
   if (!reason.isEmpty()) return panel_->setPlan(reason, false);
   try {
     const Planned plan = planned();
@@ -340,7 +339,7 @@ void SweepController::showPlots() {
   const bool has_points = std::ranges::any_of(
       sweep.scenes, [](const SweepScene& each) { return !each.points.empty(); });
   const QString instead = is_running                ? tr("The first point is being computed.")
-                          : !bench_.session.scene() ? tr("Open a light field first.")
+                          : !bench_.session.scene() ? open_a_light_field()
                           : !has_points ? tr("Press Run: a point is plotted here for each value.")
                                         : tr("The points have no such number.");
   const auto measures = panel_->measures();

@@ -2,6 +2,7 @@
 #include "app/gui/scene/viewer_area.h"
 
 #include "app/gui/shell/panes.h"
+#include "app/session/session.h"
 #include "widgets/canvas/epi_pane.h"
 #include "widgets/canvas/tile_wall.h"
 #include "widgets/canvas/view_canvas.h"
@@ -269,6 +270,16 @@ void ViewerArea::showPreviewEpis(const QImage& horizontal, const QImage& vertica
 
 void ViewerArea::endPreview() {
   if (std::exchange(is_previewing_, false)) emit previewChanged(false);
+}
+
+QString open_a_light_field() {
+  return ViewerArea::tr("Open a light field first.");
+}
+
+QString why_nothing_runs(const Session& session, const ViewerArea& area) {
+  if (!session.scene()) return open_a_light_field();
+  if (!area.isPreviewing()) return {};
+  return ViewerArea::tr("The light field is still loading.");
 }
 
 }  // namespace episcope

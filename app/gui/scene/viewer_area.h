@@ -15,6 +15,7 @@ class ColorBar;
 class EpiPane;
 class OverlayBar;
 class Panes;
+class Session;
 class TileWall;
 class ViewCanvas;
 
@@ -102,5 +103,11 @@ class ViewerArea : public QWidget {
   bool is_wall_shown_ = false;
   bool is_previewing_ = false;
 };
+
+/// What to say where something needs a light field and none is open.
+[[nodiscard]] QString open_a_light_field();
+/// Why no method runs on the light field in front: there is none, or the one being read covers it.
+/// Empty if methods can run.
+[[nodiscard]] QString why_nothing_runs(const Session& session, const ViewerArea& area);
 
 }  // namespace episcope
