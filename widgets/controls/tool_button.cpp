@@ -1,8 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Resources of a static library register themselves only when asked to, outside of any namespace.
-static void register_resources() {
-  Q_INIT_RESOURCE(episcope);
-}
 #include "widgets/controls/tool_button.h"
 
 #include "widgets/controls/theme.h"
@@ -21,6 +17,11 @@ static void register_resources() {
 #include <QVBoxLayout>
 
 #include <algorithm>
+
+// Resources of a static library register themselves only when asked to, outside of any namespace.
+static void register_resources() {
+  Q_INIT_RESOURCE(episcope);
+}
 
 namespace episcope {
 

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-class QAction;
-class QLabel;
-class QToolButton;
-class QWidget;
 #include "engine/core/scene.h"
 
 #include <QIcon>
@@ -15,6 +11,11 @@ class QWidget;
 #include <QStyledItemDelegate>
 
 #include <initializer_list>
+
+class QAction;
+class QLabel;
+class QToolButton;
+class QWidget;
 
 namespace episcope {
 
