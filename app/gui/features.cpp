@@ -294,8 +294,9 @@ void add_segmenting(const Workbench& bench) {
   auto* panel = new SegmentPanel(&bench.frame);
   bench.frame.addToTab("annotate", panel);
   auto* segment = new SegmentController(bench, panel);
-  QObject::connect(bench.owner.findChild<LabelImporter*>(), &LabelImporter::segmented, segment,
-                   &SegmentController::takeLabels);
+  auto* importer = bench.owner.findChild<LabelImporter*>();
+  QObject::connect(importer, &LabelImporter::segmented, segment, &SegmentController::takeLabels);
+  QObject::connect(importer, &LabelImporter::undone, segment, &SegmentController::putBack);
   QObject::connect(bench.owner.findChild<AnnotateController*>(),
                    &AnnotateController::disparityWanted, segment,
                    &SegmentController::provideDisparity);

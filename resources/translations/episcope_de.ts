@@ -1938,10 +1938,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <source>Method</source>
         <translation>Verfahren</translation>
     </message>
-    <message>
-        <source>The light field is still loading.</source>
-        <translation>Das Lichtfeld wird noch geladen.</translation>
-    </message>
 </context>
 <context>
     <name>episcope::ExportLabelsDialog</name>
@@ -3377,8 +3373,8 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         </translation>
     </message>
     <message>
-        <source>The labels shown now are replaced, and undo does not bring them back: export them first to keep them.</source>
-        <translation>Die jetzt gezeigten Labels werden ersetzt, und Rückgängig bringt sie nicht zurück: Zum Behalten vorher exportieren.</translation>
+        <source>The labels shown now are replaced. A button in the message that follows brings them back.</source>
+        <translation>Die gezeigten Labels werden ersetzt. Ein Knopf in der Meldung, die folgt, holt sie zurück.</translation>
     </message>
 </context>
 <context>
@@ -3916,6 +3912,10 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>Imported: %1</source>
         <translation>Importiert: %1</translation>
+    </message>
+    <message>
+        <source>Undo</source>
+        <translation>Rückgängig</translation>
     </message>
 </context>
 <context>

@@ -27,7 +27,9 @@
 namespace episcope {
 namespace {
 
-constexpr int kStay = 6000;  // ms that good news stays.
+// ms that good news stays, and an offer.
+constexpr int kStay = 6000;
+constexpr int kStayOffered = 20000;
 constexpr double kTint = 0.14;
 constexpr int kEdgeWidth = 4;
 
@@ -76,7 +78,6 @@ MessageBar::MessageBar(QWidget* parent)
   }
   layout->addWidget(close_);
   timer_.setSingleShot(true);
-  timer_.setInterval(kStay);
   connect(close_, &QToolButton::clicked, this, [this] {
     dismiss();
     emit closed();
@@ -104,7 +105,7 @@ void MessageBar::showMessage(Severity severity, const QString& text, Action acti
   updateIcon();
   const bool goes_away = severity == Severity::Info || severity == Severity::Success;
   if (goes_away) {
-    timer_.start();
+    timer_.start(buttons_[0].action.text.isEmpty() ? kStay : kStayOffered);
   } else {
     timer_.stop();
   }

@@ -157,8 +157,8 @@ ImportLabelsDialog::ImportLabelsDialog(QWidget* parent, bool has_labels)
   uses_->button(static_cast<int>(LabelUse::Strokes))->setChecked(true);
   auto* warning = wrapped_label("importLabels.replaced", this);
   warning->setText(
-      tr("The labels shown now are replaced, and undo does not bring them back: "
-         "export them first to keep them."));
+      tr("The labels shown now are replaced. A button in the message that follows "
+         "brings them back."));
   warning->hide();
   layout_->addWidget(warning);
   connect(uses_, &QButtonGroup::idToggled, this,
@@ -304,7 +304,9 @@ void LabelImporter::use(const io::ImportedLabels& labels, LabelUse use, const QS
     bench_.messages.success(tr("Labels are now compared with %1").arg(name));
     return;
   }
-  if (use == LabelUse::Segmentation) {
+  const bool is_segmentation = use == LabelUse::Segmentation;
+  const KeptLabels former = session_.labels();
+  if (is_segmentation) {
     useAsSegmentation(labels);
   } else if (!document_.edit([&](AnnotationDocument& document) {
                import_scribbles(document, labels.scribbles);
@@ -314,7 +316,11 @@ void LabelImporter::use(const io::ImportedLabels& labels, LabelUse use, const QS
   }
   QStringList sentences{tr("Imported: %1").arg(name)};
   for (const std::string& note : labels.notes) sentences << QString::fromStdString(note);
-  bench_.messages.success(sentences.join("\n"));
+  if (!is_segmentation) return bench_.messages.success(sentences.join("\n"));
+  bench_.messages.offer(sentences.join("\n"), tr("Undo"),
+                        [this, former, generation = session_.generation()] {
+                          if (generation == session_.generation()) emit undone(former);
+                        });
 }
 
 void LabelImporter::useAsSegmentation(const io::ImportedLabels& labels) {

@@ -1,17 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/annotate/labeling_source.h"
 
-#include "app/session/run_estimator.h"
 #include "engine/core/error.h"
-#include "engine/disparity/registry.h"
 
 namespace episcope {
-namespace {
-
-// It is waited for while painting: this takes seconds, better methods half a minute.
-constexpr const char* kQuickEstimator = "epi_s";
-
-}  // namespace
 
 LabelingSource::LabelingSource(Session& session, Jobs& jobs, QObject* parent)
     : QObject(parent), session_(session), jobs_(jobs) {
@@ -95,15 +87,15 @@ void LabelingSource::provide() {
     return;
   }
   own_[generation] = {};
-  job_ = jobs_.start<FinishedEstimate>(
+  job_ = jobs_.start<EstimatePtr>(
       Lane::Estimate, job_title(tr("Disparity for labels"), session_),
       [scene](const Progress& progress) {
-        return run_estimator(*scene, find_estimator(kQuickEstimator), {}, {}, progress);
+        return estimate_for_labels(*scene, Device::Auto, progress);
       },
-      [this, generation](const FinishedEstimate& finished) {
+      [this, generation](const EstimatePtr& estimate) {
         const auto own = own_.find(generation);
         if (own == own_.end()) return;
-        own->second = disparity_of(finished.estimate, kQuickEstimator);
+        own->second = disparity_of(estimate, kLabelingEstimator);
         session_.set_label_disparity(generation, own->second.field);
       },
       [this] { emit changed(); });

@@ -242,8 +242,10 @@ void SegmentController::noteInput() {
     input.confidence = disparity.confidence();
     input.edges = edges_.edges();
     input.scribbles = std::make_shared<const ScribbleLayer>(document->scribbles());
+    const bool stays_imported = staysImported(input);
     live_.set_input(std::move(input));
     restore();
+    if (stays_imported) adopt(session_.labels());
     const LabelingPtr all = live_.labeling(session_.view());
     const bool is_back = all && all->labels.grid().count() > 1 && isSegmentationUpToDate();
     if (is_back) keep(all, *live_.input());
@@ -251,6 +253,18 @@ void SegmentController::noteInput() {
   }
   publish();
   goOnWithAllViews();
+}
+
+// A disparity that becomes known leaves labels from elsewhere as they are.
+bool SegmentController::staysImported(LabelingInput now) const {
+  const KeptLabels& kept = session_.labels();
+  const auto before = live_.input();
+  if (!before || !kept.is_imported || live_.labeling(session_.view()) != kept.labeling)
+    return false;
+  now.disparity = before->disparity;
+  now.confidence = before->confidence;
+  now.edges = before->edges;
+  return kept.labeling && isSegmentationUpToDate() && is_same(*before, now);
 }
 
 // What was merged or has another number is so in the labels shown, too.
@@ -553,6 +567,13 @@ void SegmentController::takeLabels(const LabelingPtr& labeling) {
   session_.set_labels(session_.generation(), kept);
   wants_to_show_ = true;
   adopt(kept);
+}
+
+void SegmentController::putBack(const KeptLabels& kept) {
+  session_.set_labels(session_.generation(), kept);
+  live_.clear();
+  restored_ = 0;
+  noteInput();
 }
 
 void SegmentController::adopt(const KeptLabels& kept) {

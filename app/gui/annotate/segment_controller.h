@@ -58,6 +58,8 @@ class SegmentController : public QObject, public MapProvider {
   [[nodiscard]] bool isSegmentationUpToDate() const;
   /// Shows labels from elsewhere in place of the newest ones, until strokes or settings change.
   void takeLabels(const LabelingPtr& labeling);
+  /// Shows these labels of the scene, or none, in place of all others.
+  void putBack(const KeptLabels& kept);
   /// Smooths the boundaries of all labels, as one step of the history.
   void smoothBoundaries(double smoothing_px);
 
@@ -86,6 +88,7 @@ class SegmentController : public QObject, public MapProvider {
   [[nodiscard]] bool isComing() const;
   void update(Parts parts);
   void noteInput();
+  [[nodiscard]] bool staysImported(LabelingInput now) const;
   void relabel(int from, int to);
   void begin();
   void endWish();

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-class QKeyEvent;
 #include "app/gui/shell/workbench.h"
 #include "app/session/capture_work.h"
 #include "engine/capture/mesh_file.h"
@@ -22,6 +21,8 @@ class QKeyEvent;
 #include <set>
 #include <string>
 #include <vector>
+
+class QKeyEvent;
 
 namespace episcope {
 

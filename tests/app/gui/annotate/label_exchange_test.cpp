@@ -79,6 +79,7 @@ class LabelExchangeTest : public QObject {
   void oneOfThreeUses_isAskedFor();
   void labelsOfAllViews_becomeTheSegmentation();
   void importedLabels_areNotReplacedUnsaid();
+  void importedLabels_stayWhenTheDisparityComes();
   void trueLabels_areCompared();
   void anotherId_isUnlabeledAtOnce();
   void largeIds_areRenumbered();
@@ -147,7 +148,8 @@ void LabelExchangeTest::importedLabels_areNotReplacedUnsaid() {
   QVERIFY(!f.part<QLabel>("importLabels.replaced")->isVisible());
   f.accept("segmentation");
   QTRY_VERIFY(f.segment().segmentation());
-  QVERIFY(f.window.bench().session.labels().is_worth_keeping());  // of one view, but nothing else gives them
+  QVERIFY(f.window.bench().session.labels().is_worth_keeping());  // of one view, but nothing else
+                                                                  // gives them
 
   f.importer().open({f.halves("all.npy")});
 
@@ -155,6 +157,29 @@ void LabelExchangeTest::importedLabels_areNotReplacedUnsaid() {
   QVERIFY(!f.part<QLabel>("importLabels.replaced")->isVisible());
   f.part<QRadioButton>("importLabels.segmentation")->click();
   QVERIFY(f.part<QLabel>("importLabels.replaced")->isVisible());
+  const LabelingPtr former = f.window.bench().session.labels().labeling;
+  f.accept("segmentation");
+  QVERIFY(f.segment().hasAllViews());
+  auto* undo = f.part<MessageBar>("messageBar")->findChild<QPushButton*>("message.action");
+  QVERIFY(undo && !undo->isHidden());
+  undo->click();
+  QCOMPARE(f.window.bench().session.labels().labeling, former);
+  QVERIFY(f.segment().hasSegmentation());
+  QVERIFY(!f.segment().hasAllViews());
+}
+
+void LabelExchangeTest::importedLabels_stayWhenTheDisparityComes() {
+  Exchanging f;
+  f.importer().open({f.halves("all.npy")});
+  f.accept("segmentation");
+  QTRY_VERIFY(f.segment().hasAllViews());
+  const LabelingPtr imported = f.window.bench().session.labels().labeling;
+
+  f.segment().provideDisparity();
+
+  QTRY_VERIFY_WITH_TIMEOUT(f.segment().labeler().input()->disparity, kScenePatience);
+  QVERIFY(f.segment().isSegmentationUpToDate());
+  QCOMPARE(f.window.bench().session.labels().labeling, imported);
 }
 
 void LabelExchangeTest::trueLabels_areCompared() {
