@@ -2,6 +2,7 @@
 #include "app/cli/label_files.h"
 
 #include "engine/core/numbers.h"
+#include "engine/core/text.h"
 #include "engine/io/base/files.h"
 #include "engine/io/models/labels/color_table.h"
 #include "engine/io/models/labels/label_import.h"
@@ -60,6 +61,14 @@ void check_label_options(const Arguments& parser, const LabelFileOptions& option
 
 Scribbles load_labels(const LabelFileOptions& options, const Scene& scene, Job& job,
                       const Progress& progress) {
+  const bool is_own = io::has_own_labels(options.file);
+  const bool has_names = is_own || suffix_of(options.file) == ".json";
+  const auto refuse = [&](const char* option) {
+    throw UsageError(std::string(option) + " has no effect on " + options.file +
+                     ", which states what its labels are; leave it out");
+  };
+  if (!options.colors.empty() && has_names) refuse("--colors");
+  if (!options.ignored.empty() && is_own) refuse("--ignore");
   const io::LabelReading reading{.table = color_table(options.colors),
                                  .known = scene.scribbles.labels,
                                  .ignored = ignored_ids(options.ignored),

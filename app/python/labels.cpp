@@ -32,14 +32,21 @@ struct FoundLabels : ScoredLabels {
   OpenedScene of;
 };
 
-bool is_painted(const ViewScribbles& scribbles) {
-  return std::ranges::any_of(scribbles.labels, [](std::int32_t id) { return id != 0; });
+void add_view(const ImageView<const std::int32_t>& labels, ViewIndex view, Scribbles& scribbles) {
+  scribbles.views.push_back({view, Image<std::int32_t>(labels.height, labels.width)});
+  std::copy_n(labels.data, labels.size(), scribbles.views.back().labels.data());
 }
 
-void add_view(const ImageView<const std::int32_t>& labels, ViewIndex view, Scribbles& scribbles) {
-  ViewScribbles added{view, Image<std::int32_t>(labels.height, labels.width)};
-  std::copy_n(labels.data, labels.size(), added.labels.data());
-  if (is_painted(added)) scribbles.views.push_back(std::move(added));
+/// Takes negative and ignored ids for unpainted, and leaves out views where nothing is painted.
+void leave_painted(const std::vector<std::int32_t>& ignored, Scribbles& scribbles) {
+  std::erase_if(scribbles.views, [&](ViewScribbles& one) {
+    bool is_painted = false;
+    for (std::int32_t& id : one.labels) {
+      if (id < 0 || std::ranges::find(ignored, id) != ignored.end()) id = 0;
+      is_painted = is_painted || id != 0;
+    }
+    return !is_painted;
+  });
 }
 
 /// A map for each view that was painted.
@@ -119,12 +126,14 @@ EstimatePtr estimate_from(const py::object& disparity) {
 }
 
 FoundLabels label(const py::object& light_field, const py::object& painted,
-                  const py::object& disparity, const std::string& device, int threads,
-                  const py::object& progress, const py::kwargs& given) {
+                  const std::vector<std::int32_t>& ignore, const py::object& disparity,
+                  const std::string& device, int threads, const py::object& progress,
+                  const py::kwargs& given) {
   const OpenedScene& opened = scene_from(light_field);
   const auto schema = labeler_schema();
   const LabelerParameters parameters = schema.parse(parameters_from(given, schema.descriptions()));
-  const Scribbles scribbles = scribbles_from(painted, *opened.scene);
+  Scribbles scribbles = scribbles_from(painted, *opened.scene);
+  leave_painted(ignore, scribbles);
   const EstimatePtr estimate = estimate_from(disparity);
   const Device on = run_options(device, threads).device;
   ScoredLabels labels = result_of_job(progress, threads, [&](const Progress& job) {
@@ -185,17 +194,19 @@ Writes an HDF5 file of labels; with probabilities, four bytes more for each ray 
 that name are replaced if they were made with the same parameters and strokes from the same light
 field, others only with overwrite=True; what is no file of labels, never.)");
   module.def("label", label, py::arg("light_field"), py::arg("scribbles") = py::none(),
-             py::kw_only(), py::arg("disparity") = py::none(), py::arg("device") = "auto",
-             py::arg("threads") = 0, py::arg("progress") = py::none(),
-             R"(label(light_field, scribbles=None, *, disparity=None, device='auto', threads=0,
-      progress=None, **parameters)
+             py::kw_only(), py::arg("ignore") = std::vector<std::int32_t>(),
+             py::arg("disparity") = py::none(), py::arg("device") = "auto", py::arg("threads") = 0,
+             py::arg("progress") = py::none(),
+             R"(label(light_field, scribbles=None, *, ignore=(), disparity=None, device='auto',
+      threads=0, progress=None, **parameters)
 --
 
 Labels every pixel of all views from a few painted ones.
 
-scribbles: whole numbers, 0 = unpainted, [y, x] of the center view, [v, u, y, x] of all, or a dict
+scribbles: whole numbers, 0, negative or NaN = unpainted, [y, x] of the center view, [v, u, y, x] of all, or a dict
 of [y, x] by (v, u); None: those that lie beside the light field. At least two labels must be
 painted.
+ignore: other numbers that mean unpainted, such as (255,).
 disparity: a Result of all views; by default it is estimated. parameters: those of 'episcope-cli
 label --help', such as features='image'. progress: called as progress(fraction, step).
 Raises InvalidInput for scribbles that do not fit.)");

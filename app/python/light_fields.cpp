@@ -443,9 +443,10 @@ OrderedArray<T> numbers_from(const py::object& array, const std::string& what) {
   }
   if (is_whole && given && given.dtype().kind() == 'f') {  // as MATLAB stores whole numbers
     const auto numpy = py::module_::import("numpy");
-    if (py::cast<bool>(numpy.attr("array_equal")(given, numpy.attr("rint")(given)))) {
-      require_ids(given, what);
-      return OrderedArray<T>(py::array(given.attr("astype")("int32")));
+    const py::array whole = numpy.attr("where")(numpy.attr("isnan")(given), 0, given);
+    if (py::cast<bool>(numpy.attr("array_equal")(whole, numpy.attr("rint")(whole)))) {
+      require_ids(whole, what);
+      return OrderedArray<T>(py::array(whole.attr("astype")("int32")));
     }
   }
   const bool is_array = py::isinstance<py::array>(array);

@@ -25,6 +25,7 @@
 #include "engine/io/models/map_padding.h"
 #include "engine/io/models/reader.h"
 #include "engine/io/models/result_file.h"
+#include "engine/io/models/scribble_file.h"
 #include "engine/io/models/stored_maps.h"
 #include "engine/render/shade.h"
 
@@ -186,6 +187,9 @@ bool names_light_field_only(const std::string& path) {
 
 Estimate read_result_of(const LightField& light_field, const fs::path& path,
                         const io::MapReading& reading) {
+  if (io::is_segmentation_file(path)) {
+    throw IoError(path, std::string("holds labels and no disparity; ") + io::kRemedyForLabels);
+  }
   if (is_hdf5_light_field(path)) {
     throw IoError(path,
                   "holds a light field or true depth and no estimated disparity; name a result");

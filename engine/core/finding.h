@@ -243,6 +243,17 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
     {"truth.columns_reversed", "columns from right to left"},
     {"truth.both_reversed", "both rows and columns in reverse order"},
     {"truth.transposed", "rows and columns exchanged"},
+    {"truth.views_turned",
+     "The {} of all views were stored in another order than the views ({}), as comparing them with "
+     "views off the diagonal shows ({}); they were put right.",
+     "The %1 of all views were reordered."},
+    {"truth.maps", "maps of the ground truth"},
+    {"truth.labels", "true labels"},
+    {"truth.views_transposed", "rows and columns of views exchanged"},
+    {"truth.views_misfit",
+     "{:.3f} px off the map of the center view on the average, as stored {:.3f} px"},
+    {"truth.views_jumps", "the disparity jumps by {:.2f} px at their edges, as stored by {:.2f}"},
+    {"truth.views_contrast", "contrast at their edges {:.2f} grey levels, as stored {:.2f}"},
     {"truth.estimated", "The depth of this file is no ground truth: it was {}.",
      "The depth of this file was estimated."},
     // Depth and its camera.
@@ -282,11 +293,20 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
      "{} is not used ({}): save disparity in px per view step as .npy, .pfm or float .tif.",
      "%1 is not used."},
     {"map.damaged", "{} of {} {} are left out. {}.", "%1 of %2 maps are left out."},
+    {"map.exchanged",
+     "{} with {}×{} px lie on their side beside views of {}×{} px: rows and columns were "
+     "exchanged.",
+     "%1 were turned."},
     {"map.border",
      "A border of {} px has one value only and counts as padding; {}×{} px are used."},
     {"map.middle",
      "The maps of {}×{} px are taken for the middle of {}×{} px, and judged there alone."},
     {"map.padded", "The maps of {}×{} px are padded {} with a constant; {}×{} px are used."},
+    {"units.doubt",
+     "No known unit explains the views well with {}: taken for {}, the next views differ by {:.2f} "
+     "grey levels, with its values times {:.4g} by {:.2f}; if they are of another unit, convert "
+     "the map to .pfm with --map-scale {:.4g}.",
+     "The unit of %1 is in doubt."},
     {"units.warp", "mean grey error of neighboring views after warping {}, unwarped {}"},
     {"units.warp_stored",
      "mean grey error of neighboring views after warping {}, unwarped {}, with the values as "
@@ -335,6 +355,16 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
     {"labels.raised_files",
      "Labels start at 0 in these files: all labels are raised by one, so that 0 means none.",
      "Labels are raised by one."},
+    {"labels.raised_coco",
+     "There is a category 0 in this file: all labels are raised by one, so that 0 means none.",
+     "Labels are raised by one."},
+    {"labels.exchanged",
+     "{} holds labels of {}×{} px for views of {}×{} px: rows and columns were exchanged.",
+     "The labels of %1 were turned."},
+    {"labels.smoothed",
+     "{} of the {} labels lie only between others, as on smoothed (antialiased) edges: draw "
+     "with a hard brush, or list the colors that count in a table.",
+     "%1 of the %2 labels may be smoothed edges."},
     {"labels.raised",
      "Labels start at 0 in this file and unpainted pixels are marked by another value: all labels "
      "are raised by one, so that 0 means unpainted.",

@@ -15,6 +15,7 @@
 #include "engine/io/formats/mosaic_reader.h"
 #include "engine/io/formats/sequence_reader.h"
 #include "engine/io/models/reader.h"
+#include "engine/io/models/scribble_file.h"
 
 #include <algorithm>
 #include <iterator>
@@ -96,6 +97,9 @@ std::unique_ptr<const Hdf5Input> kept_open(const fs::path& path) {
 Scene read_scene(const fs::path& path, const OpenOptions& options, const Progress& progress) {
   const auto kept = kept_open(path);
   const FoundReader found = find_reader(path, options);
+  if (found.path == path && is_segmentation_file(path)) {
+    throw NoLightField(path, std::string("holds labels and no light field; ") + kRemedyForLabels);
+  }
   if (found.reader) return found.reader->read(found.path, options, progress);
   if (!fs::is_directory(path)) {
     const std::string advice = advice_on(path);

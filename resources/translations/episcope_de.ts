@@ -3187,6 +3187,74 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <source>disp_min is not below disp_max.</source>
         <translation>disp_min liegt nicht unter disp_max.</translation>
     </message>
+    <message>
+        <source>%1 holds labels of %2×%3 px for views of %4×%5 px: rows and columns were exchanged.</source>
+        <translation>%1 enthält Labels von %2×%3 px für Ansichten von %4×%5 px: Zeilen und Spalten wurden vertauscht.</translation>
+    </message>
+    <message>
+        <source>%1 of the %2 labels lie only between others, as on smoothed (antialiased) edges: draw with a hard brush, or list the colors that count in a table.</source>
+        <translation>%1 der %2 Labels liegen nur zwischen anderen, wie an geglätteten Kanten (Antialiasing): mit hartem Pinsel zeichnen, oder die Farben, die zählen, in einer Tabelle nennen.</translation>
+    </message>
+    <message>
+        <source>%1 of the %2 labels may be smoothed edges.</source>
+        <translation>%1 der %2 Labels sind vielleicht geglättete Kanten.</translation>
+    </message>
+    <message>
+        <source>%1 px off the map of the center view on the average, as stored %2 px</source>
+        <translation>im Mittel %1 px neben der Karte der mittleren Ansicht, wie gespeichert %2 px</translation>
+    </message>
+    <message>
+        <source>%1 were turned.</source>
+        <translation>%1 wurden gedreht.</translation>
+    </message>
+    <message>
+        <source>%1 with %2×%3 px lie on their side beside views of %4×%5 px: rows and columns were exchanged.</source>
+        <translation>%1 mit %2×%3 px liegen neben Ansichten von %4×%5 px auf der Seite: Zeilen und Spalten wurden vertauscht.</translation>
+    </message>
+    <message>
+        <source>No known unit explains the views well with %1: taken for %2, the next views differ by %3 grey levels, with its values times %4 by %5; if they are of another unit, convert the map to .pfm with --map-scale %6.</source>
+        <translation>Keine bekannte Einheit erklärt mit %1 die Ansichten gut: als %2 unterscheiden sich die nächsten Ansichten um %3 Graustufen, mit den Werten mal %4 um %5; sind sie von anderer Einheit, die Karte mit --map-scale %6 in .pfm umwandeln.</translation>
+    </message>
+    <message>
+        <source>The %1 of all views were reordered.</source>
+        <translation>%1 aller Ansichten wurden umgeordnet.</translation>
+    </message>
+    <message>
+        <source>The %1 of all views were stored in another order than the views (%2), as comparing them with views off the diagonal shows (%3); they were put right.</source>
+        <translation>%1 aller Ansichten waren in anderer Reihenfolge gespeichert als die Ansichten (%2), wie der Vergleich mit Ansichten neben der Diagonalen zeigt (%3); das wurde berichtigt.</translation>
+    </message>
+    <message>
+        <source>The labels of %1 were turned.</source>
+        <translation>Die Labels von %1 wurden gedreht.</translation>
+    </message>
+    <message>
+        <source>The unit of %1 is in doubt.</source>
+        <translation>Die Einheit von %1 ist zweifelhaft.</translation>
+    </message>
+    <message>
+        <source>There is a category 0 in this file: all labels are raised by one, so that 0 means none.</source>
+        <translation>In dieser Datei gibt es eine Kategorie 0: alle Labels sind um eins erhöht, sodass 0 keines bedeutet.</translation>
+    </message>
+    <message>
+        <source>contrast at their edges %1 grey levels, as stored %2</source>
+        <translation>Kontrast an ihren Kanten %1 Graustufen, wie gespeichert %2</translation>
+    </message>
+    <message>
+        <source>maps of the ground truth</source>
+        <translation>Karten der Referenz</translation>
+    </message>
+    <message>
+        <source>rows and columns of views exchanged</source>
+        <translation>Zeilen und Spalten der Ansichten vertauscht</translation>
+    </message>
+    <message>
+        <source>the disparity jumps by %1 px at their edges, as stored by %2</source>
+        <translation>die Disparität springt an ihren Kanten um %1 px, wie gespeichert um %2</translation>
+    </message>
+    <message>
+        <source>true labels</source>
+        <translation>Labels der Referenz</translation>
+    </message>
 </context>
 <context>
     <name>episcope::FocusController</name>

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Types of the module. What the functions do is in their own documentation.
 import os
-from typing import Any, Callable, Dict, List, Mapping, Optional, Tuple, Union, overload
+from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -147,6 +147,7 @@ def label(
     light_field: LightField,
     scribbles: Union[None, npt.ArrayLike, Mapping[View, npt.ArrayLike]] = ...,
     *,
+    ignore: Sequence[int] = ...,
     disparity: Optional[Result] = ...,
     device: str = ...,
     threads: int = ...,

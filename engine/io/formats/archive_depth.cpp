@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <optional>
 
@@ -71,6 +72,7 @@ std::vector<FileUse> read_other_maps(const std::shared_ptr<const Hdf5Input>& fil
   }
   const ArrayLayout axes{views->shape, layout.has_channel_axis ? "vuyxc" : "vuyx"};
   ArrayMaps maps = read_array_maps(arrays, others, {axes, views->order}, wants_labels, progress);
+  std::ranges::move(maps.notes, std::back_inserter(parts.report.warnings));
   if (!has_depth && !maps.truth.field.empty()) {
     settle_disparity(parts.samples, maps, maps.truth.field, parts.report);
     parts.truth.field = std::move(maps.truth.field);

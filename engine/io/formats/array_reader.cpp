@@ -24,6 +24,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <span>
@@ -310,6 +311,7 @@ Scene read_single(const ArrayFile& file, const char* reader, const OpenOptions& 
   std::erase_if(others, [&more](const ArrayEntry* each) { return more.owns && more.owns(*each); });
   ArrayMaps maps = read_array_maps(file, others, {chosen.layout, entry.order}, options.needs_truth,
                                    progress.part(0.65, 0.7));
+  std::ranges::move(maps.notes, std::back_inserter(scene.convention.warnings));
   parts.samples = std::move(read.samples);
   parts.valid = std::move(read.valid);
   combine(parts.valid, std::move(maps.valid));
@@ -357,6 +359,12 @@ Scene read_array_scene(const ArrayFile& file, const char* reader, const OpenOpti
                        const Progress& progress, const OtherArrays& more = {}) {
   const auto several = MultiFieldFile::find(file, options);
   if (!several) {
+    if (options.frame != 0) {
+      throw InvalidInput(
+          fmt::format("{} holds a single light field, but number {} was asked for; "
+                      "leave out --frame",
+                      file.path().string(), options.frame));
+    }
     const auto colored = with_stacked_channels(file, options);
     return read_single(colored ? *colored : file, reader, options, progress, more);
   }

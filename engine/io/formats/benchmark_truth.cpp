@@ -304,25 +304,15 @@ DisparityField read_stored(const fs::path& folder, const SidecarViews& views,
   return {};
 }
 
-/// Values that stand for unknown become invalid.
-void drop_unknown(const LightField::Samples& samples, ViewIndex at, DisparityField& field,
-                  ConventionReport& report) {
-  for (const float value : possible_unknown_values(field.view(at))) {
-    const std::string text = drop_unknown_value("The disparity", samples, at, {value, 1}, field);
-    if (!text.empty()) report.warnings.push_back(text);
-  }
-}
-
 /// Disparity that other programs wrote: turned, with values that stand for unknown, or of another
 /// sign than that of the benchmark, which views show by what hides what.
 void correct_values(const LightField::Samples& samples, DisparityField& field,
                     ConventionReport& report) {
   if (field.empty()) return;
-  const GridShape grid = grid_of(samples);
-  const ViewIndex at = field.contains(grid.center()) ? grid.center() : field.disparity.first();
+  const ViewIndex at = told_view(field, grid_of(samples));
   const std::string undone = put_truth_upright(samples, field).undone;
   if (!undone.empty()) report.warnings.push_back(turned_back_text(undone));
-  drop_unknown(samples, at, field, report);
+  drop_unknown_values(samples, at, 1, {field, "The disparity"}, report);
   const Explanation explanation = explain_views(samples, at, field.view(at), 1);
   if (!explanation.is_good()) return;
   const OcclusionOrder side = find_occlusion_order(samples, at, field.view(at), 1, explanation);

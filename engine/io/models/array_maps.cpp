@@ -24,9 +24,12 @@ std::optional<MapKind> kind_of(const ArrayEntry& entry) {
   return map_kind(name);
 }
 
-/// The light field's layout without the letters that a map of this shape lacks.
+enum class Pixels { AsViews, Exchanged };
+
+/// The light field's layout without the letters that a map of this shape lacks, and perhaps with
+/// rows and columns of pixels exchanged.
 std::optional<ArrayLayout> map_layout(const ArrayEntry& entry, const ArrayLayout& light_field,
-                                      IndexOrder order) {
+                                      IndexOrder order, Pixels are = Pixels::AsViews) {
   ArrayLayout layout{entry.shape, {}};
   std::string all;
   for (const char letter : in_index_order(light_field.axes, order)) {
@@ -42,6 +45,7 @@ std::optional<ArrayLayout> map_layout(const ArrayEntry& entry, const ArrayLayout
     while (whole.size() < lengths.size() && lengths[lengths.size() - whole.size() - 1] == 1) {
       whole = kSingle + whole;
     }
+    if (are == Pixels::Exchanged) std::swap(whole[whole.find('y')], whole[whole.find('x')]);
     layout.axes = in_index_order(whole, entry.order);
     if (layout.axes.size() != entry.shape.size()) continue;
     const auto fits = [&](char letter) {
@@ -119,7 +123,7 @@ bool settle_stored(const LightField::Samples& samples, NamedValues values,
   DisparityField& field = values.field;
   const GridShape grid = grid_of(samples);
   const int width = std::visit([](const auto& stack) { return stack.width(); }, samples);
-  const ViewIndex at = values.at(grid);
+  const ViewIndex at = told_view(field, grid);
   const SettledUnit settled = infer_units(samples, common_units(grid, width), values, report);
   const double factor = settled.unit.factor;
   OcclusionOrder side;
@@ -160,7 +164,9 @@ ArrayMaps read_array_maps(const ArrayFile& file, const std::vector<const ArrayEn
     const ArrayEntry& entry = *other;
     progress.check();
     auto kind = kind_of(entry);
-    const auto axes = kind ? map_layout(entry, layout, light_field.order) : std::nullopt;
+    auto axes = kind ? map_layout(entry, layout, light_field.order) : std::nullopt;
+    const bool is_turned = kind && !axes;
+    if (is_turned) axes = map_layout(entry, layout, light_field.order, Pixels::Exchanged);
     const bool is_mask = kind == MapKind::Valid || kind == MapKind::Invalid;
     const bool is_of_one = axes && axes->grid().count() < grid.count();
     ViewStack<std::uint8_t>& mask = is_of_one ? mask_of_one : maps.valid;
@@ -183,6 +189,11 @@ ArrayMaps read_array_maps(const ArrayFile& file, const std::vector<const ArrayEn
       continue;
     }
     maps.uses.push_back({kind_text(*kind), 1, entry.name, true});
+    if (is_turned) {
+      maps.notes.push_back(fmt::format(finding_text("map.exchanged"), "The maps of " + entry.name,
+                                       axes->height(), axes->width(), axes->width(),
+                                       axes->height()));
+    }
   }
   mask_truth(std::move(mask_of_one), maps.truth.field);
   return maps;

@@ -13,12 +13,13 @@ namespace episcope::io {
 
 /// Maps beside the light field in a file of arrays.
 struct ArrayMaps {
-  GroundTruth truth;              ///< In the order of views as stored.
-  ViewStack<std::uint8_t> valid;  ///< Likewise; empty = none.
-  std::vector<FileUse> uses;      ///< Every array of the file but the light field: used as what.
-  std::string disparity_name;     ///< Of the array that holds the disparity.
-  bool is_sign_assumed = false;   ///< Nothing tells near from far in it.
-  bool is_named_labels = false;   ///< That name is one of labels, but it holds fractions.
+  GroundTruth truth;               ///< In the order of views as stored.
+  ViewStack<std::uint8_t> valid;   ///< Likewise; empty = none.
+  std::vector<FileUse> uses;       ///< Every array of the file but the light field: used as what.
+  std::vector<std::string> notes;  ///< On what was turned.
+  std::string disparity_name;      ///< Of the array that holds the disparity.
+  bool is_sign_assumed = false;    ///< Nothing tells near from far in it.
+  bool is_named_labels = false;    ///< That name is one of labels, but it holds fractions.
 
   /// The name for the report, with the reason why it is not taken for labels.
   [[nodiscard]] std::string disparity_text() const;
@@ -37,10 +38,10 @@ inline constexpr const char* kNamedLabels = "named like labels, but with fractio
 [[nodiscard]] bool has_fractions(const ViewStack<float>& values);
 
 /// Reads disparity, labels and masks of the center view or of all views among `others`. Names tell
-/// the kind (`map_kind`, or "gt"); axes must match the light field without channels. Other arrays
-/// are noted as not used. A mask of one view belongs to the disparity of one view. Fractional
-/// floats named like labels are disparity, as EPINET names it, if there is no other. Throws
-/// IoError, Cancelled.
+/// the kind (`map_kind`, or "gt"); axes must match the light field without channels, if need be
+/// with y and x exchanged, which is noted. Other arrays are noted as not used. A mask of one view
+/// belongs to the disparity of one view. Fractional floats named like labels are disparity, as
+/// EPINET names it, if there is no other. Throws IoError, Cancelled.
 [[nodiscard]] ArrayMaps read_array_maps(const ArrayFile& file,
                                         const std::vector<const ArrayEntry*>& others,
                                         const FieldAxes& light_field, bool wants_labels,

@@ -9,6 +9,7 @@
 #include "engine/io/base/sample_range.h"
 #include "engine/io/models/dark_views.h"
 #include "engine/io/models/load_views.h"
+#include "engine/io/models/order/truth_views.h"
 #include "engine/io/models/order/view_axes.h"
 
 #include <fmt/format.h>
@@ -52,15 +53,18 @@ std::vector<OrderEvidence> evidence_of(SceneParts& parts, ConventionReport& repo
   GroundTruth& truth = parts.truth;
   const UprightTruth upright = put_truth_upright(parts.samples, truth.field);
   if (!upright.undone.empty()) report.warnings.push_back(turned_back_text(upright.undone));
-  const ViewIndex center = grid_of(parts.samples).center();
   std::vector<OrderEvidence> found;
   for (const DisparityField* field : {&truth.field, &truth.foreground, &truth.background}) {
     if (field->empty() || (field != &truth.field && truth.has_disparity())) continue;
-    const ViewIndex at = field->contains(center) ? center : field->disparity.first();
+    const ViewIndex at = told_view(*field, grid_of(parts.samples));
     found.push_back({at, field->view(at)});
     if (field == &truth.field) found.back().errors = upright.errors;
   }
   return found;
+}
+
+void append(std::vector<std::string>& warnings, const std::vector<std::string>& more) {
+  warnings.insert(warnings.end(), more.begin(), more.end());
 }
 
 /// Reverses views and truth as `find_order` determines it, and continues the report.
@@ -75,7 +79,7 @@ void put_in_order(SceneParts& parts, Flip choice, ConventionReport& report,
   report.sign_check = finding.sign_check;
   report.reversed_u = finding.flip.u;
   report.reversed_v = finding.flip.v;
-  report.warnings.insert(report.warnings.end(), finding.warnings.begin(), finding.warnings.end());
+  append(report.warnings, finding.warnings);
 
   const GridShape grid = grid_of(parts.samples);
   std::visit([&](auto& stack) { reverse_views(stack, grid, finding.flip); }, parts.samples);
@@ -85,6 +89,8 @@ void put_in_order(SceneParts& parts, Flip choice, ConventionReport& report,
   }
   reverse_views(parts.truth.labels, grid, finding.flip);
   reverse_views(parts.valid, grid, finding.flip);
+  if (finding.was_chosen) return;  // truth is in the order of the views by the user's word
+  append(report.warnings, put_truth_views_in_order(parts.samples, parts.truth));
 }
 
 /// Adds to what is known of order and sign: swapped axes, and where positions run.

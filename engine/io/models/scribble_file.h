@@ -179,4 +179,9 @@ inline constexpr const char* kSourcesHashOf = "sources_hash_of";
 /// Throws IoError for a damaged HDF5 file.
 [[nodiscard]] bool is_segmentation_file(const std::filesystem::path& path);
 
+/// What to do with such a file where something else is wanted.
+inline constexpr const char* kRemedyForLabels =
+    "name it with --labels or --scribbles, look at it with show, or make pictures of it with "
+    "convert --to labels";
+
 }  // namespace episcope::io

@@ -78,3 +78,11 @@ def test_ids_beyond_32_bits_are_refused(scene, strokes):
         episcope.label(scene, numpy.where(strokes > 0, strokes.astype("int64") + 2**32, 0), trees=16)
     with pytest.raises(episcope.InvalidInput, match="at most 2147483646"):
         episcope.label(scene, numpy.where(strokes > 0, strokes.astype(float) + 2**32, 0), trees=16)
+
+
+def test_ignored_numbers_and_nan_are_unpainted(scene, strokes, labeling):
+    other = numpy.where(strokes == 0, numpy.nan, strokes)
+    other[1, 1], other[1, 3], other[2, 5] = 255, -1, numpy.nan
+    same = episcope.label(scene, other, ignore=[255], features="image", trees=16)
+    assert same.ids == labeling.ids
+    assert numpy.array_equal(same.labels, labeling.labels)

@@ -365,6 +365,14 @@ void add_array(Import& import, const NamedFile& file, const Progress& progress) 
     arrays = std::make_unique<const NumpyFile>(path);
   }
   const LabelArray found = find_array(*arrays, hdf5.get(), import.places.shape);
+  const std::string axes = in_index_order(found.layout.axes, found.entry.order);
+  const FieldShape& shape = import.places.shape;
+  const bool are_stated =
+      hdf5 ? !vigra_axes(*hdf5, found.entry.name).empty() : !found.entry.stated_axes.empty();
+  if (axes.find('x') < axes.find('y') && !are_stated) {
+    import.notes.push_back(fmt::format(finding_text("labels.exchanged"), path.filename().string(),
+                                       shape.height, shape.width, shape.width, shape.height));
+  }
   const ViewStack<std::int32_t> maps =
       read_whole(*arrays->open(found.entry), found.layout, progress);
   std::vector<LabelPicture> pictures;
@@ -475,6 +483,12 @@ bool holds_labels_only(const fs::path& path) {
   }
 }
 
+bool has_own_labels(const fs::path& path) {
+  if (!has_hdf5_signature(path) || suffix_of(path) == ".mat") return false;
+  const Hdf5Input file(path);
+  return file.has("SCRIBBLES") || file.has(kTrueLabels) || is_segmentation_file(path);
+}
+
 ImportedLabels read_label_files(const std::vector<fs::path>& paths, const LabelPlaces& places,
                                 const LabelReading& reading, const Progress& progress) {
   if (paths.empty()) throw InvalidInput("no file of labels was named");
@@ -561,12 +575,11 @@ Scribbles read_own_segmentation(const fs::path& path, const Scene& scene) {
 /// Labels in the form of Episcope or the archive; nothing for another file.
 std::optional<Scribbles> read_own_labels(const fs::path& path, const Scene& scene,
                                          bool prefers_truth, const Progress& progress) {
-  if (!has_hdf5_signature(path) || suffix_of(path) == ".mat") return std::nullopt;
+  if (!has_own_labels(path)) return std::nullopt;
   const Hdf5Input file(path);
   const bool takes_truth = prefers_truth && file.has(kTrueLabels);
   if (file.has("SCRIBBLES") && !takes_truth) return read_scribbles(path, scene, progress);
   if (is_segmentation_file(path)) return read_own_segmentation(path, scene);
-  if (!file.has(kTrueLabels)) return std::nullopt;
   Scribbles labels = scribbles_of(read_true_labels(path, scene, progress));
   labels.labels = read_label_list(file, kTrueLabels);
   return labels;

@@ -29,6 +29,10 @@ struct LabelPlaces {
 /// picture, JSON, `.npy` of at most four axes, labels in HDF5.
 [[nodiscard]] bool holds_labels_only(const std::filesystem::path& path);
 
+/// Whether an HDF5 file holds labels in the form of Episcope or the archive, with names and colors.
+/// Throws IoError for a damaged file.
+[[nodiscard]] bool has_own_labels(const std::filesystem::path& path);
+
 /// Reads labels of other programs, in the order of the canonical grid:
 /// - pictures: PNG, BMP, PGM, TIFF of any integers; pages of a TIFF are the views, row by row;
 /// - arrays: `.npy`, `.npz`, `.mat` of version 5 to 7.3, HDF5, also of ilastik (`axistags`), of one

@@ -2,6 +2,7 @@
 #include "engine/io/models/labels/label_json.h"
 
 #include "engine/core/error.h"
+#include "engine/core/finding.h"
 #include "engine/core/version.h"
 #include "engine/io/base/atomic_file.h"
 #include "engine/io/base/json.h"
@@ -195,7 +196,7 @@ std::string key_of(const Json& id) {
   return id.is_string() ? id.get<std::string>() : json_text(id);
 }
 
-std::vector<LabelInfo> categories_of(const Json& json) {
+std::vector<LabelInfo> categories_of(const Json& json, std::vector<std::string>& notes) {
   std::vector<LabelInfo> labels;
   for (const Json& category : json.at("categories")) {
     LabelInfo label{int_of(category.at("id")), category.value("name", ""), {}};
@@ -204,6 +205,7 @@ std::vector<LabelInfo> categories_of(const Json& json) {
     labels.push_back(std::move(label));
   }
   const bool has_zero = std::ranges::find(labels, 0, &LabelInfo::id) != labels.end();
+  if (has_zero) notes.emplace_back(finding_text("labels.raised_coco"));
   for (LabelInfo& label : labels) {
     if (has_zero) ++label.id;
     if (label.name.empty()) label.name = "label " + std::to_string(label.id);
@@ -213,7 +215,7 @@ std::vector<LabelInfo> categories_of(const Json& json) {
 
 CocoLabels coco_of(const Json& json) {
   CocoLabels coco;
-  coco.labels = categories_of(json);
+  coco.labels = categories_of(json, coco.notes);
   std::map<std::string, std::int32_t> ids;
   for (std::size_t i = 0; i < coco.labels.size(); ++i) {
     ids[key_of(json.at("categories")[i].at("id"))] = coco.labels[i].id;

@@ -2,6 +2,7 @@
 #include "engine/io/models/labels/label_pictures.h"
 
 #include "engine/core/error.h"
+#include "engine/core/finding.h"
 #include "engine/core/text.h"
 #include "engine/io/base/files.h"
 #include "engine/io/models/labels/color_table.h"
@@ -438,6 +439,30 @@ ImportedLabels strokes_of_numbers(std::vector<ViewPicture>& pictures, const Labe
   return strokes;
 }
 
+/// A sentence about labels that hardly any pixel has but between two others; else nothing.
+std::string doubt_of_edges(const Image<std::int32_t>& labels) {
+  constexpr std::ptrdiff_t kFewestEdges = 3;
+  constexpr double kMostOnEdges = 0.8;
+  std::map<std::int32_t, std::pair<int, int>> counts;  // pixels, and those between two others
+  for (int y = 1; y + 1 < labels.height(); ++y) {
+    for (int x = 1; x + 1 < labels.width(); ++x) {
+      const std::int32_t id = labels.at(y, x);
+      const auto is_between = [id](int a, int b) { return a != b && a != id && b != id; };
+      if (id == 0) continue;
+      auto& [pixels, edges] = counts[id];
+      ++pixels;
+      if (is_between(labels.at(y, x - 1), labels.at(y, x + 1)) ||
+          is_between(labels.at(y - 1, x), labels.at(y + 1, x))) {
+        ++edges;
+      }
+    }
+  }
+  const auto edges = std::ranges::count_if(
+      counts, [](const auto& one) { return one.second.second > kMostOnEdges * one.second.first; });
+  if (edges < kFewestEdges) return {};
+  return fmt::format(finding_text("labels.smoothed"), edges, counts.size());
+}
+
 }  // namespace
 
 ImportedLabels labels_of_pictures(std::vector<ViewPicture> pictures, const LabelReading& reading,
@@ -453,7 +478,11 @@ ImportedLabels labels_of_pictures(std::vector<ViewPicture> pictures, const Label
   std::erase_if(labels.scribbles.views, [](const ViewScribbles& one) {
     return std::ranges::all_of(one.labels, [](std::int32_t id) { return id == 0; });
   });
-  if (!labels.scribbles.views.empty()) return labels;
+  if (!labels.scribbles.views.empty()) {
+    const std::string doubt = doubt_of_edges(labels.scribbles.views.front().labels);
+    if (!doubt.empty() && reading.table.empty()) labels.notes.push_back(doubt);
+    return labels;
+  }
   throw IoError(path, "nothing is painted: every pixel is unpainted or transparent; draw strokes");
 }
 

@@ -216,7 +216,9 @@ template <class T>
 ViewStack<T> turned(const ViewStack<T>& stack, const MapTurn& turn, GridShape grid,
                     ViewIndex first) {
   if (stack.empty()) return {};
-  ViewStack<T> out(grid, stack.height(), stack.width(), 1, first);
+  const int height = turn.is_transposed ? stack.width() : stack.height();
+  const int width = turn.is_transposed ? stack.height() : stack.width();
+  ViewStack<T> out(grid, height, width, 1, first);
   for (int i = 0; i < grid.count(); ++i) {
     const ViewIndex view = out.view_at(i);
     const auto from = stack.view(view);
@@ -234,30 +236,33 @@ ViewStack<T> turned(const ViewStack<T>& stack, const MapTurn& turn, GridShape gr
 
 }  // namespace
 
-std::vector<MapTurn> possible_turns(int height, int width) {
-  std::vector<MapTurn> turns;
-  for (const MapTurn& turn : kTurns) {
-    if (!turn.is_transposed || height == width) turns.push_back(turn);
-  }
-  return turns;
-}
-
 DisparityField turned_back(const DisparityField& field, const MapTurn& turn) {
   const GridShape grid = field.disparity.grid();
   const ViewIndex first = field.disparity.first();
   return {turned(field.disparity, turn, grid, first), turned(field.valid, turn, grid, first)};
 }
 
-DisparityField turned_back(const DisparityView& map, const MapTurn& turn) {
-  const int height = map.disparity.height;
-  const int width = map.disparity.width;
-  DisparityField field{ViewStack<float>({1, 1}, height, width),
-                       ViewStack<std::uint8_t>({1, 1}, height, width)};
-  for (int y = 0; y < height; ++y) {
-    std::copy_n(map.disparity.row(y), width, field.disparity.view({}).row(y));
-    for (int x = 0; x < width; ++x) field.valid.view({}).at(y, x) = map.is_valid(y, x) ? 1 : 0;
+std::optional<MapTurn> far_better_turn(
+    const DisparityView& map, double error,
+    const std::function<double(const DisparityView&)>& error_of) {
+  DisparityField field{ViewStack<float>({1, 1}, map.disparity.height, map.disparity.width),
+                       ViewStack<std::uint8_t>({1, 1}, map.disparity.height, map.disparity.width)};
+  for (int y = 0; y < map.disparity.height; ++y) {
+    std::copy_n(map.disparity.row(y), map.disparity.width, field.disparity.view({}).row(y));
+    for (int x = 0; x < map.disparity.width; ++x) {
+      field.valid.view({}).at(y, x) = map.is_valid(y, x) ? 1 : 0;
+    }
   }
-  return turned_back(field, turn);
+  double least = kFarBetterTurn * error;
+  std::optional<MapTurn> found;
+  for (const MapTurn& turn : kTurns) {
+    if (turn.is_transposed && map.disparity.height != map.disparity.width) continue;
+    const double so = error_of(turned_back(field, turn).view({}));
+    if (so >= least) continue;
+    least = so;
+    found = turn;
+  }
+  return found;
 }
 
 std::string turned_back_text(const std::string& turn) {
@@ -266,27 +271,16 @@ std::string turned_back_text(const std::string& turn) {
 
 UprightTruth put_truth_upright(const LightField::Samples& samples, DisparityField& field) {
   if (field.empty()) return {};
-  const ViewIndex center = grid_of(samples).center();
-  const ViewIndex at = field.contains(center) ? center : field.disparity.first();
+  const ViewIndex at = told_view(field, grid_of(samples));
   UprightTruth found{{}, warp_errors(samples, at, field.view(at))};
-  const WarpErrors stored = *found.errors;
-  const double without = stored.unwarped();
-  if (stored.best() < kEvident * without) return found;
-  double least = kFarBetterTurn * std::min(stored.best(), without);
-  std::optional<MapTurn> undone;
-  for (const MapTurn& turn : possible_turns(field.disparity.height(), field.disparity.width())) {
-    const DisparityField candidate{turned(field.disparity, turn, {1, 1}, at),
-                                   turned(field.valid, turn, {1, 1}, at)};
-    const WarpErrors errors = warp_errors(samples, at, candidate.view(at));
-    if (errors.best() >= least) continue;
-    least = errors.best();
-    found.errors = errors;
-    undone = turn;
-  }
-  if (!undone) return found;
-  field = turned_back(field, *undone);
-  found.undone = undone->text;
-  return found;
+  const double error = found.errors->best(), without = found.errors->unwarped();
+  if (error < kEvident * without) return found;
+  const auto errors_of = [&](const DisparityView& map) { return warp_errors(samples, at, map); };
+  const auto turn = far_better_turn(field.view(at), std::min(error, without),
+                                    [&](const auto& map) { return errors_of(map).best(); });
+  if (!turn) return found;
+  field = turned_back(field, *turn);
+  return {turn->text, errors_of(field.view(at))};
 }
 
 namespace {

@@ -10,6 +10,7 @@
 #include "engine/io/models/order/view_axes.h"
 #include "engine/io/models/order/warp_check.h"
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,6 +26,11 @@ struct ExpectedOrder {
   /// The sign of the truth is only assumed: negated, it would fit the opposite order as well.
   bool is_truth_sign_assumed = false;
 };
+
+/// The view by whose map the others are judged: the center, or the first of those there are.
+[[nodiscard]] inline ViewIndex told_view(const DisparityField& field, GridShape grid) {
+  return field.contains(grid.center()) ? grid.center() : field.disparity.first();
+}
 
 /// Disparity map as stored, by which neighboring views can be warped.
 struct OrderEvidence {
@@ -64,13 +70,15 @@ struct MapTurn {
   const char* text = "";  ///< Such as "rows from bottom to top".
 };
 
-/// All turns of maps of this size. Rows and columns are exchanged in square maps only.
-[[nodiscard]] std::vector<MapTurn> possible_turns(int height, int width);
-
 /// Undoes the turn in all maps.
 [[nodiscard]] DisparityField turned_back(const DisparityField& field, const MapTurn& turn);
-/// Undoes the turn of one map; returns a field of the single view (0, 0).
-[[nodiscard]] DisparityField turned_back(const DisparityView& map, const MapTurn& turn);
+
+/// The turn whose undoing leaves the least of the error, and less than 0.6 of it: maps as they are
+/// stored may explain views not much worse than turned ones, which are wrong then. Rows and columns
+/// are exchanged in square maps only.
+[[nodiscard]] std::optional<MapTurn> far_better_turn(
+    const DisparityView& map, double error,
+    const std::function<double(const DisparityView&)>& error_of);
 
 /// Warning about `MapTurn::text` or `UprightTruth::undone`.
 [[nodiscard]] std::string turned_back_text(const std::string& turn);

@@ -244,11 +244,19 @@ void swap_view_axes(ViewStack<std::uint8_t>& stack) {
   swap_axes(stack);
 }
 
+void swap_view_axes(ViewStack<std::int32_t>& stack) {
+  swap_axes(stack);
+}
+
+void swap_view_axes(DisparityField& field) {
+  swap_axes(field.disparity);
+  swap_axes(field.valid);
+}
+
 void swap_view_axes(GroundTruth& truth) {
-  for (DisparityField* field : {&truth.field, &truth.foreground, &truth.background}) {
-    swap_axes(field->disparity);
-    swap_axes(field->valid);
-  }
+  swap_view_axes(truth.field);
+  swap_view_axes(truth.foreground);
+  swap_view_axes(truth.background);
   swap_axes(truth.labels);
 }
 

@@ -73,6 +73,8 @@ struct ViewAxes {
 /// square.
 void swap_view_axes(LightField::Samples& samples);
 void swap_view_axes(ViewStack<std::uint8_t>& stack);
+void swap_view_axes(ViewStack<std::int32_t>& stack);
+void swap_view_axes(DisparityField& field);
 void swap_view_axes(GroundTruth& truth);
 /// Exchanges positions that are stored row by row on the grid.
 void swap_view_axes(std::vector<CameraPosition>& positions, GridShape stored);

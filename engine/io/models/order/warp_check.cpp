@@ -306,23 +306,32 @@ std::vector<WarpedPair> pairs_of(const LightField::Samples& samples, ViewIndex a
   return pairs;
 }
 
+/// Of the pairs with the disparity of each point; infinite if it leads most out of the pictures.
+template <class DisparityOf>
+double mean_error(const std::vector<WarpedPair>& pairs, const std::vector<MapPoint>& points,
+                  const DisparityOf& disparity_of) {
+  double sum = 0, inside = 0;
+  for (const WarpedPair& pair : pairs) {
+    for (const MapPoint& point : points) {
+      const float error = pair.error(point, disparity_of(point));
+      if (error < 0) continue;
+      sum += error;
+      inside += 1;
+    }
+  }
+  const bool is_told =
+      inside > 0 && 2 * inside >= static_cast<double>(pairs.size() * points.size());
+  return is_told ? sum / inside : HUGE_VAL;
+}
+
 double best_constant(const std::vector<WarpedPair>& pairs, const std::vector<MapPoint>& points) {
   double reach = 0;
   for (const MapPoint& point : points) reach = std::max(reach, std::abs(point.disparity));
   std::pair<double, double> least{HUGE_VAL, 0};
   for (int step = -kSteps; step <= kSteps; ++step) {
     const double constant = reach * step / kSteps;
-    double sum = 0, inside = 0;
-    for (const WarpedPair& pair : pairs) {
-      for (const MapPoint& point : points) {
-        const float error = pair.error(point, constant);
-        if (error < 0) continue;
-        sum += error;
-        inside += 1;
-      }
-    }
-    if (2 * inside < static_cast<double>(pairs.size() * points.size())) continue;
-    least = std::min(least, {sum / inside, constant});
+    const double error = mean_error(pairs, points, [=](const MapPoint&) { return constant; });
+    if (error < HUGE_VAL) least = std::min(least, {error, constant});
   }
   return least.second;
 }
@@ -400,6 +409,29 @@ ConstantComparison compare_with_constant(const LightField::Samples& samples, Vie
     for (const WarpedPair& pair : pairs) add_pair(pair, points, {constant, differs}, squares);
   }
   return compared(squares);
+}
+
+std::vector<double> errors_of_factors(const LightField::Samples& samples, ViewIndex at,
+                                      const DisparityView& map,
+                                      const std::vector<double>& factors) {
+  const std::vector<MapPoint> points = spread_points(map);
+  const Image<float> here = picture_of(samples, at);
+  std::vector<double> errors(factors.size(), 0);
+  int axes = 0;
+  for (const bool is_u : {true, false}) {
+    const std::vector<WarpedPair> pairs = pairs_of(samples, at, here, {}, is_u);
+    if (pairs.empty()) continue;
+    ++axes;
+    for (std::size_t i = 0; i < factors.size(); ++i) {
+      const auto error = [&](double factor) {
+        return mean_error(pairs, points,
+                          [=](const MapPoint& point) { return factor * point.disparity; });
+      };
+      errors[i] += std::min(error(factors[i]), error(-factors[i]));
+    }
+  }
+  for (double& error : errors) error /= std::max(axes, 1);
+  return errors;
 }
 
 namespace {

@@ -80,6 +80,12 @@ struct ConstantComparison {
                                                        ViewIndex at, const DisparityView& disparity,
                                                        const WarpErrors& errors);
 
+/// Mean grey errors of the same neighbors by a map times each factor, each axis in its better
+/// order; infinite where the map leads most pixels out of the views. Brightness is as it is.
+[[nodiscard]] std::vector<double> errors_of_factors(const LightField::Samples& samples,
+                                                    ViewIndex at, const DisparityView& map,
+                                                    const std::vector<double>& factors);
+
 /// Pictures of one channel for looking at the motion between views, `[y][x]`.
 
 /// Cuts out the middle of a picture, at most `side` by `side` px.

@@ -64,12 +64,9 @@ bool has_four_neighbours(GridShape grid, ViewIndex at) {
 
 Explanation explanation_of(const WarpErrors& errors) {
   Explanation found;
-  const auto pixels = static_cast<double>(errors.u.pixels + errors.v.pixels);
-  if (pixels == 0) return found;
+  if (errors.u.pixels + errors.v.pixels == 0) return found;
   found.error = errors.best();
-  found.unwarped = (errors.u.unwarped * static_cast<double>(errors.u.pixels) +
-                    errors.v.unwarped * static_cast<double>(errors.v.pixels)) /
-                   pixels;
+  found.unwarped = errors.unwarped();
   found.reversed_u = errors.u.says_reversed();
   found.reversed_v = errors.v.says_reversed();
   return found;
@@ -466,15 +463,6 @@ std::ptrdiff_t count_of(const DisparityView& map, float value) {
   return std::count(pixels.begin(), pixels.end(), std::uint8_t{1});
 }
 
-Image<float> scaled(const ImageView<const float>& map, double factor) {
-  Image<float> out(map.height, map.width);
-  for (int y = 0; y < map.height; ++y) {
-    std::transform(map.row(y), map.row(y) + map.width, out.row(y),
-                   [&](float value) { return static_cast<float>(factor * value); });
-  }
-  return out;
-}
-
 /// With the orders of views in which others fit better; infinite if nothing was compared.
 double error_as_of(const WarpErrors& errors, const WarpErrors& others) {
   const auto pixels = static_cast<double>(errors.u.pixels + errors.v.pixels);
@@ -497,8 +485,8 @@ Image<std::uint8_t> valid_without(const DisparityView& map, float value) {
   return valid;
 }
 
-}  // namespace
-
+/// Values by which programs mark unknown pixels: 0, −1, and the largest and the smallest value
+/// (65535, 1e10, −999). Only values that many pixels have exactly.
 std::vector<float> possible_unknown_values(const DisparityView& map) {
   std::vector<float> values{0, -1};
   std::optional<float> smallest, largest;
@@ -517,8 +505,18 @@ std::vector<float> possible_unknown_values(const DisparityView& map) {
   return values;
 }
 
-std::string drop_unknown_value(const std::string& name, const LightField::Samples& samples,
-                               ViewIndex at, const UnknownValue& unknown, DisparityField& field) {
+/// Value that may mark unknown pixels.
+struct UnknownValue {
+  float value = 0;    ///< In the map,
+  double factor = 1;  ///< whose values times this are px.
+};
+
+/// Marks pixels of exactly this value as invalid, in all views, if hardly any other value is near
+/// it and the neighbors of view `at` contradict these pixels but agree with the rest. Values other
+/// than 0 must not agree better than without warping. Returns a warning, or nothing.
+std::string drop_unknown_value(const LightField::Samples& samples, ViewIndex at,
+                               const UnknownValue& unknown, NamedValues values) {
+  DisparityField& field = values.field;
   const DisparityView map = field.view(at);
   const Image<std::uint8_t> pixels = pixels_of(map, unknown.value);
   const auto count = std::count(pixels.begin(), pixels.end(), std::uint8_t{1});
@@ -527,59 +525,75 @@ std::string drop_unknown_value(const std::string& name, const LightField::Sample
   const auto near = pixels_near(map, unknown.value);
   if (!near || static_cast<double>(*near) >= kFewInGap * static_cast<double>(count)) return {};
   const Image<std::uint8_t> others = valid_without(map, unknown.value);
-  const Image<float> disparity = scaled(map.disparity, unknown.factor);
-  const WarpErrors there = warp_errors(samples, at, {disparity.view(), pixels.view()});
-  const WarpErrors elsewhere = warp_errors(samples, at, {disparity.view(), others.view()});
+  const ScaledMap disparity = scaled(map, unknown.factor);
+  const WarpErrors there = warp_errors(samples, at, {disparity.disparity.view(), pixels.view()});
+  const WarpErrors elsewhere =
+      warp_errors(samples, at, {disparity.disparity.view(), others.view()});
   const double error = error_as_of(there, elsewhere);
   const bool helps = unknown.value != 0 && error < kAsUnwarped * there.unwarped();
   if (!(error > kContradicted * elsewhere.best()) || helps) return {};
   mark(field, unknown.value);
-  return fmt::format(finding_text("map.unknown_value"), name, unknown.value,
+  return fmt::format(finding_text("map.unknown_value"), values.name, unknown.value,
                      100 * static_cast<double>(count) / all,
                      std::isfinite(error)
                          ? fmt::format(finding_text("map.error_there"), error, elsewhere.best())
                          : std::string(finding_text("map.leads_out")));
 }
 
+}  // namespace
+
+void drop_unknown_values(const LightField::Samples& samples, ViewIndex at, double factor,
+                         NamedValues values, ConventionReport& report) {
+  for (const float value : possible_unknown_values(values.field.view(at))) {
+    const std::string text = drop_unknown_value(samples, at, {value, factor}, values);
+    if (!text.empty()) report.warnings.push_back(text);
+  }
+}
+
 namespace {
 
 /// A map that explains views this well, as a share of the error without warping, is upright.
 constexpr double kPlainMap = 0.5;
-/// Largest share of the error that a turned map may leave: maps as they are stored may explain
-/// views not much worse than turned ones, which are wrong then.
-constexpr double kFarBetterReading = 0.6;
-
-bool is_plain(const Explanation& explanation) {
-  // Shifts out of the picture leave nothing to compare.
-  return explanation.unwarped > 0 && explanation.error <= kPlainMap * explanation.unwarped;
-}
+/// Largest share of the error that another factor may leave.
+constexpr double kFarBetterFactor = 0.6;
+/// Factors that are tried: up to 64 times as much or as little, and what differs more than
+/// slightly.
+constexpr int kFactorSteps = 48;
+constexpr double kFactorsPerOctave = 8;
+constexpr double kOtherFactor = 0.2;
 
 /// Before near and far are judged, which mirrored maps would get wrong.
 void put_upright(const LightField::Samples& samples, const std::vector<MapUnit>& units,
                  ViewIndex at, DisparityField& field, ConventionReport& report) {
   const DisparityView map = field.view(at);
   const Explanation stored = settle_unit(samples, at, map, units).explanation;
-  if (is_plain(stored)) return;
-  double least =
-      kFarBetterReading * (stored.unwarped > 0 ? std::min(stored.error, stored.unwarped) : 0);
-  std::optional<MapTurn> found;
-  for (const MapTurn& turn : possible_turns(map.disparity.height, map.disparity.width)) {
-    const DisparityField turned = turned_back(map, turn);
-    const double error = settle_unit(samples, at, turned.view({}), units).explanation.error;
-    if (error >= least) continue;
-    least = error;
-    found = turn;
-  }
+  if (stored.error <= kPlainMap * stored.unwarped) return;  // or nothing was compared
+  const auto found = far_better_turn(
+      map, std::min(stored.error, stored.unwarped), [&](const DisparityView& turned) {
+        return settle_unit(samples, at, turned, units).explanation.error;
+      });
   if (!found) return;
   field = turned_back(field, *found);
   report.warnings.push_back(turned_back_text(found->text));
 }
 
-}  // namespace
-
-ViewIndex NamedValues::at(GridShape grid) const {
-  return field.contains(grid.center()) ? grid.center() : field.disparity.first();
+/// Where a factor that nobody uses explains the views far better than the known units: a warning.
+std::string doubt_of_unit(const LightField::Samples& samples, ViewIndex at, NamedValues values,
+                          const MapUnit& unit) {
+  std::vector<double> factors{0, unit.factor};
+  for (int step = -kFactorSteps; step <= kFactorSteps; ++step) {
+    factors.push_back(unit.factor * std::exp2(step / kFactorsPerOctave));
+  }
+  const auto errors = errors_of_factors(samples, at, values.field.view(at), factors);
+  const auto least = std::min_element(errors.begin() + 2, errors.end());
+  const double factor = factors[static_cast<std::size_t>(least - errors.begin())];
+  const bool is_other = std::abs(std::log2(factor / unit.factor)) > kOtherFactor;
+  if (!is_other || !(*least < kFarBetterFactor * std::min(errors[0], errors[1]))) return {};
+  return fmt::format(finding_text("units.doubt"), values.name, unit.text, errors[1], factor, *least,
+                     factor);
 }
+
+}  // namespace
 
 void scale_values(DisparityField& field, double factor) {
   if (factor == 1) return;
@@ -589,14 +603,12 @@ void scale_values(DisparityField& field, double factor) {
 
 SettledUnit infer_units(const LightField::Samples& samples, const std::vector<MapUnit>& units,
                         NamedValues values, ConventionReport& report) {
-  const ViewIndex at = values.at(grid_of(samples));
+  const ViewIndex at = told_view(values.field, grid_of(samples));
   put_upright(samples, units, at, values.field, report);
   SettledUnit settled = settle_unit(samples, at, values.field.view(at), units);
-  for (const float value : possible_unknown_values(values.field.view(at))) {
-    const std::string text =
-        drop_unknown_value(values.name, samples, at, {value, settled.unit.factor}, values.field);
-    if (!text.empty()) report.warnings.push_back(text);
-  }
+  drop_unknown_values(samples, at, settled.unit.factor, values, report);
+  const std::string doubt = doubt_of_unit(samples, at, values, settled.unit);
+  if (!doubt.empty()) report.warnings.push_back(doubt);
   return settled;
 }
 

@@ -109,37 +109,23 @@ struct DepthFit {
 struct NamedValues {
   DisparityField& field;
   std::string name;
-
-  /// View by which the others are judged.
-  [[nodiscard]] ViewIndex at(GridShape grid) const;
 };
 
 /// Multiplies the values of all views.
 void scale_values(DisparityField& field, double factor);
 
 /// Determines the unit of a disparity from the views (`settle_unit`). Turns maps that were stored
-/// in another order of pixels back (`possible_turns`), with a warning. Marks values that stand for
+/// in another order of pixels back (`far_better_turn`), with a warning. Marks values that stand for
 /// unknown as invalid. Precondition: `units` is not empty.
 [[nodiscard]] SettledUnit infer_units(const LightField::Samples& samples,
                                       const std::vector<MapUnit>& units, NamedValues values,
                                       ConventionReport& report);
 
-/// Values by which programs mark unknown pixels: 0, −1, and the largest and the smallest value
-/// (65535, 1e10, −999). Only values that many pixels have exactly.
-[[nodiscard]] std::vector<float> possible_unknown_values(const DisparityView& map);
-
-/// Value that may mark unknown pixels.
-struct UnknownValue {
-  float value = 0;    ///< In the map,
-  double factor = 1;  ///< whose values times this are px.
-};
-
-/// Marks pixels of exactly this value as invalid, in all views, if hardly any other value is near
-/// it and the neighbors of view `at` contradict these pixels but agree with the rest. Values other
-/// than 0 must not agree better than without warping. Returns a warning about the map of this name,
-/// or nothing. Linear in the pixels.
-[[nodiscard]] std::string drop_unknown_value(const std::string& name,
-                                             const LightField::Samples& samples, ViewIndex at,
-                                             const UnknownValue& unknown, DisparityField& field);
+/// Marks pixels as invalid, in all views, whose value stands for unknown: 0, −1, or the largest or
+/// smallest one (65535, 1e10, −999), if many pixels have exactly that, hardly any other is near,
+/// and the neighbors of view `at` contradict it but agree with the rest, by the values times
+/// `factor`. Warns of it. Linear in the pixels.
+void drop_unknown_values(const LightField::Samples& samples, ViewIndex at, double factor,
+                         NamedValues values, ConventionReport& report);
 
 }  // namespace episcope::io

@@ -9,6 +9,7 @@
 #include "engine/io/models/external_result.h"
 #include "engine/io/models/map_padding.h"
 #include "engine/io/models/names/view_folders.h"
+#include "engine/io/models/order/order_check.h"
 
 #include <fmt/format.h>
 
@@ -407,16 +408,27 @@ void SetOutcome::tell(const std::string& kind, const SidecarNotes& notes) const 
                                               read.size() + failed.size(), kind, first_error));
 }
 
+namespace {
+
+bool is_on_its_side(int height, int width, const SidecarViews& views) {
+  return height != width && height == views.width() && width == views.height();
+}
+
+}  // namespace
+
 void require_view_size(const fs::path& path, int height, int width, const SidecarViews& views) {
   if (height == views.height() && width == views.width()) return;
-  const bool may_be_padded = height >= views.height() && width >= views.width();
-  throw IoError(
-      path,
-      fmt::format("this map has {}×{} px, but the views have {}×{} px; {}remove or replace it",
-                  width, height, views.width(), views.height(),
-                  may_be_padded ? "if it is padded, cut it by episcope-cli convert "
-                                  "--map-crop corner --truth LIGHT_FIELD, else "
-                                : ""));
+  const char* remedy = "";
+  if (is_on_its_side(height, width, views)) {
+    remedy = "rows and columns are exchanged: transpose, ";
+  } else if (height >= views.height() && width >= views.width()) {
+    remedy =
+        "if it is padded, cut it by episcope-cli convert --map-crop corner --truth LIGHT_FIELD, "
+        "else ";
+  }
+  throw IoError(path, fmt::format("this map has {}×{} px, but the views have {}×{} px; {}remove or "
+                                  "replace it",
+                                  width, height, views.width(), views.height(), remedy));
 }
 
 std::vector<MapSet::Entry> entries_to_read(const MapSet& set, const SidecarViews& views) {
@@ -492,9 +504,15 @@ void require_one_map(const std::filesystem::path& file, const ViewStack<T>& stac
   throw IoError(file, "this file holds maps of several views, but its name is that of one view");
 }
 
-/// Brings maps of several times, or a part of, the size of the views to that size; else cuts off a
-/// padding, and puts maps that lack a border into the middle, where that is evident.
+/// Brings maps of several times, or a part of, the size of the views to that size; else exchanges
+/// rows and columns, cuts off a padding, or puts maps that lack a border into the middle, where
+/// that is evident.
 ResampledMaps fit_into_views(DisparityField& maps, const SidecarViews& views) {
+  if (is_on_its_side(maps.disparity.height(), maps.disparity.width(), views)) {
+    maps = turned_back(maps, {.is_transposed = true});
+    return {1, fmt::format(finding_text("map.exchanged"), "The maps", views.height(), views.width(),
+                           views.width(), views.height())};
+  }
   ResampledMaps resampled = resample_to(maps, views.height(), views.width());
   if (resampled.scale != 1) return resampled;
   const ViewStack<float>& map = maps.disparity;

@@ -40,11 +40,6 @@ struct StoredMaps {
   DisparityField field;
   const MapSet* set = nullptr;
   double scale = 1;  ///< Pixels of the map as stored in a pixel of the views.
-
-  /// The map by which the others are judged.
-  [[nodiscard]] ViewIndex at(GridShape grid) const {
-    return field.contains(grid.center()) ? grid.center() : field.disparity.first();
-  }
 };
 
 StoredMaps read_first(const std::vector<const MapSet*>& sets, const std::string& kind,
@@ -137,7 +132,7 @@ void add_unit_of_size(const StoredMaps& maps, const SidecarViews& views,
   const MapUnit own{1 / maps.scale, fmt::format("px of the map as stored, {:.4g} of which are one "
                                                 "of the views, per view step",
                                                 maps.scale)};
-  const ViewIndex at = maps.at(views.grid());
+  const ViewIndex at = told_view(maps.field, views.grid());
   const auto error = [&](const MapUnit& unit) {
     return explain_views(views.samples, at, maps.field.view(at), unit.factor).error;
   };
@@ -155,7 +150,7 @@ struct SidecarDisparity {
 
 SidecarDisparity from_disparity(StoredMaps maps, const RankedSets& depths,
                                 const SidecarViews& views, const SidecarNotes& notes) {
-  const ViewIndex at = maps.at(views.grid());
+  const ViewIndex at = told_view(maps.field, views.grid());
   std::vector<MapUnit> units = common_units(views.grid(), views.width());
   if (const auto stated = stated_unit(views.folder, notes.account)) {
     units.insert(units.begin(), *stated);
@@ -226,7 +221,7 @@ SidecarDisparity from_depth(const RankedSets& sets, const SidecarViews& views,
   if (maps.field.empty()) return {{}, views.camera};
   maps.field.disparity = disparity_of(std::move(maps.field.disparity), views.camera);
   tidy_valid(maps.field);
-  const ViewIndex at = maps.at(views.grid());
+  const ViewIndex at = told_view(maps.field, views.grid());
   const SettledUnit settled =
       settle_unit(views.samples, at, maps.field.view(at), {{1, "px per view step"}});
   notes.report.units = "disparity from " + maps.set->pattern + " and the camera";

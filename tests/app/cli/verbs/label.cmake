@@ -55,7 +55,7 @@ endforeach()
 expect("show by default" 0 OUT "labels, 96×96 px" ARGS show l.h5 -o l.png)
 expect("show an unknown label" 1 ERR "no label 7; it has 1, 2, 3"
        ARGS show l.h5 -o no.png --what probability --label 7)
-expect("show a view that is not there" 1 ERR "view 5,5 was asked for"
+expect("show a view that is not there" 2 ERR "view 5,5 was asked for"
        ARGS show l.h5 -o no.png --view 5,5)
 expect("show what labels lack" 2 ERR "is a file of labels" ARGS show l.h5 -o no.png --what view)
 expect("labels alone" 0 ARGS label lf.h5 -o bare.h5 --features image --regularizer none --trees 8
@@ -135,6 +135,15 @@ if(NOT EXISTS "${WORK}/segmented_coco/images/00_00.png")
   fail_case("the views of labels are not written")
 endif()
 expect("labels of a map" 2 ERR "--labels is for a light field" ARGS convert lf.h5 m.pfm --labels as_labels)
+expect("colors of own labels" 2 ERR "--colors has no effect on labels.h5, which states what"
+       ARGS label lf.h5 --scribbles labels.h5 --colors one.csv -o no.h5)
+expect("ignored ids of own labels" 2 ERR "--ignore has no effect on l.h5"
+       ARGS convert lf.h5 no.h5 --labels l.h5 --ignore 2)
+file(COPY "${WORK}/l.h5" DESTINATION "${WORK}/alone")  # no light field beside it
+expect("labels as a light field" 1 ERR "l.h5: holds labels and no light field; name it with --labels"
+       ARGS estimate epi_l alone/l.h5 -o no.h5)
+expect("labels as a result" 1 ERR "l.h5: holds labels and no disparity; .* convert --to labels"
+       ARGS evaluate l.h5 --truth lf.h5)
 expect("ids that are none" 2 ERR "--ignore is 'x'" ARGS convert lf.h5 m.h5 --labels as_labels --ignore x)
 expect("options of labels" 2 ERR "--ignore has no effect without --labels" ARGS convert lf.h5 m.h5 --ignore 255)
 expect("an ignored id" 0 ERR "1 \\(.* % of the pixels\\) is taken for unlabeled"

@@ -64,6 +64,25 @@ class OtherMapsTest : public QObject {
              read.convention.units.c_str());
   }
 
+  void disparityOnItsSide_isTurnedWithAWarning() {
+    const ViewStack<float>& maps = scene_.truth->field.disparity;
+    ViewStack<float> turned(maps.grid(), maps.width(), maps.height());
+    for (int i = 0; i < maps.grid().count(); ++i) {
+      const ViewIndex view = maps.view_at(i);
+      for (int y = 0; y < maps.height(); ++y) {
+        for (int x = 0; x < maps.width(); ++x) {
+          turned.view(view).at(x, y) = maps.view(view).at(y, x);
+        }
+      }
+    }
+    const Scene read =
+        opened_with(path(), scene_, [&](io::Hdf5Output& file) { add(file, "disparity", turned); });
+
+    QCOMPARE(largest_difference(read.truth->field, scene_.truth->field), 0.0);
+    QVERIFY2(describe(read.convention).find("lie on their side") != std::string::npos,
+             describe(read.convention).c_str());
+  }
+
   void labels_areRead() {
     const Scene read = opened_with(path(), scene_, [&](io::Hdf5Output& file) {
       add(file, "semantic_labels", scene_.truth->labels);

@@ -157,6 +157,29 @@ class LabelImportTest : public QObject {
     QCOMPARE(row_of(labels, labels.scribbles.views.size() - 1), QString("0 1 2 3 4 5"));
   }
 
+  void arraysOnTheirSide_areTurnedWithANote() {
+    write_array("labels.npy", {6, 4});
+
+    const auto labels = io::read_label_files({path("labels.npy")}, kPlaces);
+
+    QCOMPARE(row_of(labels), QString("2 0 4 2 0 4"));
+    QVERIFY2(told(labels).contains("4×6 px for views of 6×4 px: rows and columns were exchanged"),
+             qPrintable(told(labels)));
+  }
+
+  void aCategory0OfCoco_raisesAllWithANote() {
+    std::ofstream(path("coco.json"))
+        << R"({"images": [{"id": 1, "file_name": "01_01.png", "height": 4, "width": 6}],
+              "categories": [{"id": 0, "name": "sky"}, {"id": 3, "name": "sea"}],
+              "annotations": [{"image_id": 1, "category_id": 3, "segmentation":
+                {"size": [4, 6], "counts": [4, 4, 16]}}]})";
+
+    const auto labels = io::read_label_files({path("coco.json")}, kPlaces);
+
+    QCOMPARE(row_of(labels), QString("0 4 0 0 0 0"));
+    QVERIFY2(told(labels).contains("raised by one"), qPrintable(told(labels)));
+  }
+
   void otherShapes_areNamed() {
     write_array("labels.npy", {5, 4, 6});
 

@@ -143,6 +143,26 @@ class LabelPicturesTest : public QObject {
     QVERIFY_THROWS_EXCEPTION(IoError, (void)io::read_label_files({path("none")}, {kShape}));
   }
 
+  void smoothedStrokes_areDoubted() {
+    Image<std::uint8_t> picture = drawing(kWhite, kGreen, kBlue, 3);
+    QVERIFY(told(io::read_label_files({write(picture)}, {kShape})).find("smoothed") ==
+            std::string::npos);
+    for (int y = 0; y < kHeight; ++y) {
+      for (const int x : {2, 4, 8, 10}) {
+        for (int c = 0; c < 3; ++c) {
+          const int stroke = (x < 6 ? kGreen : kBlue)[static_cast<std::size_t>(c)];
+          const int of_ground = 8 + x;  // of 20
+          picture.at(y, x, c) =
+              static_cast<std::uint8_t>((of_ground * 255 + (20 - of_ground) * stroke) / 20);
+        }
+      }
+    }
+    const std::string notes = told(io::read_label_files({write(picture)}, {kShape}));
+
+    QVERIFY2(notes.find("of the 6 labels lie only between others") != std::string::npos,
+             notes.c_str());
+  }
+
   void onePicture_isOfTheCentreViewUnlessItsNameSaysAnother() {
     Scribbles scribbles;
     scribbles.views.push_back(painted_view({4, 3}, {1, 2}, 7));

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/models/order/order_check.h"
+#include "engine/io/models/order/truth_views.h"
+#include "engine/io/models/order/view_axes.h"
+#include "tests/engine/io/models/sidecar_maps/layered_folder.h"
 #include "tests/engine/io/synthetic_scene.h"
 #include "tests/test_main.h"
 
@@ -88,6 +91,63 @@ class FlippedTruthTest : public QObject {
 
     QVERIFY(!io::put_truth_upright(scene.light_field->samples(), field).undone.empty());
     QCOMPARE(largest_difference(right, field), 0.0);
+  }
+
+  void viewsOfTruthInAnotherOrder_arePutRight_data() {
+    QTest::addColumn<bool>("transposed");
+    QTest::addColumn<bool>("flips_u");
+    QTest::addColumn<bool>("flips_v");
+    QTest::addColumn<QString>("words");
+    QTest::newRow("as stored") << false << false << false << "";
+    QTest::newRow("[u][v]") << true << false << false << "rows and columns of views exchanged";
+    QTest::newRow("u reversed") << false << true << false << "u reversed";
+    QTest::newRow("v reversed") << false << false << true << "v reversed";
+    QTest::newRow("counted by columns from below") << true << true << false << "exchanged, u rev";
+  }
+  /// The center view, and without a flip all on the diagonal, is right in any order.
+  void viewsOfTruthInAnotherOrder_arePutRight() {
+    QFETCH(bool, transposed);
+    QFETCH(bool, flips_u);
+    QFETCH(bool, flips_v);
+    QFETCH(QString, words);
+    const LayeredScene scene;
+    const GridShape grid = scene.views.grid();
+    GroundTruth truth;
+    truth.field.disparity = scene.disparity.clone();
+    truth.labels = scene.labels.clone();
+    if (transposed) io::swap_view_axes(truth);
+    io::reverse_views(truth.field, grid, {flips_u, flips_v});
+    io::reverse_views(truth.labels, grid, {flips_u, flips_v});
+
+    const auto warnings =
+        io::put_truth_views_in_order(LightField::Samples(scene.views.clone()), truth);
+
+    QCOMPARE(warnings.size(), std::size_t{words.isEmpty() ? 0U : 2U});
+    for (const std::string& warning : warnings) {
+      QVERIFY2(warning.find(words.toStdString()) != std::string::npos, warning.c_str());
+    }
+    QCOMPARE(largest_difference(truth.field, {scene.disparity.clone(), {}}), 0.0);
+    QVERIFY(std::equal(scene.labels.data(), scene.labels.data() + scene.labels.size(),
+                       truth.labels.data()));
+  }
+
+  /// Where no disparity is known, edges of the views tell.
+  void labelsAloneInAnotherOrder_arePutRight() {
+    LayeredScene scene;
+    for (int i = 0; i < static_cast<int>(scene.views.size()); ++i) {
+      std::uint8_t& sample = scene.views.data()[i];
+      sample = sample / 8 + (scene.labels.data()[i / 3] == 2 ? 100 : 0);
+    }
+    GroundTruth truth;
+    truth.labels = scene.labels.clone();
+    io::swap_view_axes(truth);
+
+    const auto warnings =
+        io::put_truth_views_in_order(LightField::Samples(scene.views.clone()), truth);
+
+    QCOMPARE(warnings.size(), std::size_t{1});
+    QVERIFY(std::equal(scene.labels.data(), scene.labels.data() + scene.labels.size(),
+                       truth.labels.data()));
   }
 
   void rightTruth_isLeft() {

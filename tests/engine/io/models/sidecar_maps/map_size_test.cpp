@@ -78,6 +78,19 @@ class MapSizeTest : public QObject {
     QCOMPARE(says_own, is_own);
   }
 
+  void mapOnItsSide_isTurned() {
+    Image<float> map(center().width, center().height);
+    for (int y = 0; y < map.height(); ++y) {
+      for (int x = 0; x < map.width(); ++x) map.at(y, x) = center().at(x, y);
+    }
+    folder_->write_npy("disparity.npy", map.view());
+
+    const Scene scene = folder_->open();
+
+    QVERIFY2(right(scene) == 1, describe(scene.convention).c_str());
+    QVERIFY(warns_of(scene, "60×72 px lie on their side beside views of 72×60 px"));
+  }
+
   void mapOfHalfTheSize_isEnlarged() {
     Image<float> map(center().height / 2, center().width / 2);
     for (int y = 0; y < map.height(); ++y) {

@@ -139,6 +139,27 @@ class UnknownUnitTest : public QObject {
     const Scene scene = open();
 
     QVERIFY2(error(scene) < 0.51 / scale, describe(scene.convention).c_str());
+    QVERIFY(!warns_of(scene, "No known unit"));
+  }
+
+  void integersOfRareScale_areDoubted_data() {
+    QTest::addColumn<float>("scale");
+    QTest::newRow("64ths") << 64.0F;
+    QTest::newRow("16ths") << 16.0F;
+    QTest::newRow("part of 1") << 0.3F;
+  }
+  void integersOfRareScale_areDoubted() {
+    QFETCH(float, scale);
+    use_positive_disparities();
+    Image<float> map(disparity().height, disparity().width);
+    std::transform(disparity().data, disparity().data + disparity().size(), map.data(),
+                   [&](float d) { return scale < 1 ? scale * d : std::round(scale * d); });
+    write_array("disparity.npy", map.view());
+
+    const Scene scene = open();
+
+    QVERIFY2(warns_of(scene, "No known unit explains the views well"),
+             describe(scene.convention).c_str());
   }
 
   void pictureWithoutAUnit_isLeftOut_data() {
