@@ -7,7 +7,6 @@
 #include "engine/io/models/labels/label_import.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <optional>
 #include <sstream>
 

@@ -1938,10 +1938,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <source>Method</source>
         <translation>Verfahren</translation>
     </message>
-    <message>
-        <source>The light field is still loading.</source>
-        <translation>Das Lichtfeld wird noch geladen.</translation>
-    </message>
 </context>
 <context>
     <name>episcope::ExportLabelsDialog</name>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/annotate/label_scores.h"
 
+#include "app/session/label_review.h"
+
 #include <QStringList>
 
 #include <utility>
