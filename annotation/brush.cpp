@@ -258,6 +258,24 @@ void add_row(int y, int width, const std::vector<Crossing>& crossings, PixelRegi
   }
 }
 
+// Ink and menu entry for these settings; also for fills. Throws InvalidInput for a label outside 1
+// … 255.
+Ink ink_of(const PaintStyle& style) {
+  if (style.label < 1 || style.label > LabelSet::kMaxId) {
+    throw InvalidInput(
+        fmt::format("the label id {} is out of range; ids range from 1 to 255", style.label));
+  }
+  const auto label = static_cast<std::uint8_t>(style.label);
+  Ink ink;
+  if (style.tool == PaintTool::Brush) ink.label = label;
+  if (style.protects_others) {
+    ink.kept = all_labels_but(style.tool == PaintTool::Brush ? 0 : label);
+  }
+  ink.kept |= style.locked;
+  if (ink.label != 0 && style.locked[label]) ink.kept.set();
+  return ink;
+}
+
 }  // namespace
 
 PixelRegion pixels_in_polygon(std::span<const StrokePoint> corners, int height, int width) {
@@ -274,22 +292,6 @@ PixelRegion pixels_in_polygon(std::span<const StrokePoint> corners, int height, 
   const int y1 = first_at(bottom.y, height);
   for (int y = y0; y < y1; ++y) add_row(y, width, crossings_at(y + 0.5, corners), region);
   return region;
-}
-
-Ink ink_of(const PaintStyle& style) {
-  if (style.label < 1 || style.label > LabelSet::kMaxId) {
-    throw InvalidInput(
-        fmt::format("the label id {} is out of range; ids range from 1 to 255", style.label));
-  }
-  const auto label = static_cast<std::uint8_t>(style.label);
-  Ink ink;
-  if (style.tool == PaintTool::Brush) ink.label = label;
-  if (style.protects_others) {
-    ink.kept = all_labels_but(style.tool == PaintTool::Brush ? 0 : label);
-  }
-  ink.kept |= style.locked;
-  if (ink.label != 0 && style.locked[label]) ink.kept.set();
-  return ink;
 }
 
 EditKind kind_of(const PaintStyle& style) {

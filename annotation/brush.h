@@ -61,9 +61,6 @@ struct PaintStyle {
   LabelIds locked{};
 };
 
-/// Ink and menu entry for these settings; also for fills. Throws InvalidInput for a label outside 1
-/// … 255.
-[[nodiscard]] Ink ink_of(const PaintStyle& style);
 [[nodiscard]] EditKind kind_of(const PaintStyle& style);
 
 /// A stroke of a round brush on one view, in progress. Painted pixels appear in the document at
@@ -90,7 +87,6 @@ class Stroke {
   std::optional<StrokePoint> last_;
 };
 
-/// Pixels of one view.
 struct ViewRegion {
   ViewIndex view;
   PixelRegion region;

@@ -182,10 +182,6 @@ void AnnotationDocument::keep(Edit edit) {
   tell(DocumentStep::Edited, &kept);
 }
 
-void AnnotationDocument::tell(DocumentStep step, const Edit* edit) const {
-  if (observer_) observer_({step, edit});
-}
-
 PendingEdit::PendingEdit(AnnotationDocument& document, EditKind kind)
     : document_(&document), kind_(kind) {
   document.require_idle();

@@ -170,7 +170,6 @@ class AnnotationDocument {
   [[nodiscard]] std::uint64_t state() const { return history_.state(); }
   [[nodiscard]] std::uint64_t saved_state() const { return saved_state_; }
   [[nodiscard]] bool has_unsaved_changes() const { return state() != saved_state_; }
-  /// Marks the current state as saved.
   void mark_saved();
   /// Marks every state of this document as unsaved.
   void forget_saved() { saved_state_ = kNoState; }
@@ -190,7 +189,9 @@ class AnnotationDocument {
   void keep(Edit edit);
   /// Gives the pixels of a label another one, or none (0), and replaces the labels.
   void take_over(EditKind kind, int id, std::uint8_t by, LabelSet labels);
-  void tell(DocumentStep step, const Edit* edit) const;
+  void tell(DocumentStep step, const Edit* edit) const {
+    if (observer_) observer_({step, edit});
+  }
   template <class Change>
   void edit_labels(EditKind kind, const Change& change);
 
@@ -206,7 +207,6 @@ class AnnotationDocument {
 /// A set of ids of labels; 0 stands for unpainted pixels.
 using LabelIds = std::bitset<LabelSet::kMaxId + 1>;
 
-/// All ids but one.
 [[nodiscard]] inline LabelIds all_labels_but(std::uint8_t id) {
   return LabelIds().set().reset(id);
 }

@@ -35,7 +35,6 @@ void put_view(const ViewScribbles& painted, ScribbleLayer& layer, std::set<int>&
   }
 }
 
-/// Pixels of each label.
 std::map<std::uint8_t, PixelRegion> regions_of(ImageView<const std::uint8_t> image) {
   std::map<std::uint8_t, PixelRegion> regions;
   for (int y = 0; y < image.height; ++y) {

@@ -152,10 +152,6 @@ void LabelSet::rename(int id, const std::string& name) {
   known(id).name = name;
 }
 
-void LabelSet::remove(int id) {
-  labels_.erase(labels_.begin() + (&known(id) - labels_.data()));
-}
-
 void LabelSet::renumber(int id, int to) {
   LabelInfo& label = known(id);
   require_free(to);
@@ -167,10 +163,6 @@ void LabelSet::move(int id, int place) {
   const auto from = labels_.begin() + (&known(id) - labels_.data());
   const auto to = labels_.begin() + std::clamp(place, 0, static_cast<int>(labels_.size()) - 1);
   from < to ? std::rotate(from, from + 1, to + 1) : std::rotate(to, from, from + 1);
-}
-
-void LabelSet::reserve_ids(int id) {
-  last_id_ = std::max(last_id_, std::min(id, kMaxId));
 }
 
 }  // namespace episcope

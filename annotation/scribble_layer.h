@@ -5,6 +5,7 @@
 #include "engine/core/indices.h"
 #include "engine/core/scene.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -62,7 +63,6 @@ struct PixelSpan {
   friend bool operator==(const PixelSpan&, const PixelSpan&) = default;
 };
 
-/// A set of pixels of one view.
 using PixelRegion = std::vector<PixelSpan>;
 
 /// The pixels (y, x) of a view for which `is_in(y, x)` is true, row by row.
@@ -105,13 +105,13 @@ class LabelSet {
   /// Those below throw InvalidInput for an unknown id or a bad name.
   void rename(int id, const std::string& name);
   void recolor(int id, Rgb color) { known(id).color = color; }
-  void remove(int id);
+  void remove(int id) { labels_.erase(labels_.begin() + (&known(id) - labels_.data())); }
   /// Also throws InvalidInput for a new id that is out of range or taken.
   void renumber(int id, int to);
   /// Moves a label to a place of the list, from 0; beyond the ends, to the first or last place.
   void move(int id, int place);
   /// Marks ids up to `id` as used.
-  void reserve_ids(int id);
+  void reserve_ids(int id) { last_id_ = std::max(last_id_, std::min(id, kMaxId)); }
 
   friend bool operator==(const LabelSet&, const LabelSet&) = default;
 

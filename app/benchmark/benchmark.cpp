@@ -97,7 +97,6 @@ void check_values(const fs::path& map, ViewIndex view, bool asks_for_depth, Esti
   }
 }
 
-/// The folder's own name.
 std::string submission_name(const fs::path& folder) {
   return (fs::absolute(folder) / "x").lexically_normal().parent_path().filename().string();
 }

@@ -62,7 +62,6 @@ class Workload {
 
   /// To be called for every item before the first begins.
   void expect(double seconds);
-  /// The part of the next item, titled.
   [[nodiscard]] Progress next(const std::string& title);
   /// Passes over items that will not be done.
   void skip(std::size_t count);

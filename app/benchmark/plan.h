@@ -25,7 +25,6 @@ struct SceneSize {
 /// Seconds to open such a scene, which every task spends again.
 [[nodiscard]] double opening_seconds(const SceneSize& size);
 
-/// A scene of a plan.
 struct PlanScene {
   std::string input;  ///< What opens it.
   std::string name;   ///< As in the tables.

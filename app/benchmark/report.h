@@ -11,7 +11,6 @@
 
 namespace episcope {
 
-/// A light field of a benchmark.
 struct BenchmarkScene {
   std::string name;   ///< Unique in the benchmark; names its folder below `scenes`.
   std::string input;  ///< As it was asked for.

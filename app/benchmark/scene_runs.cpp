@@ -5,13 +5,11 @@
 #include "app/session/picture.h"
 #include "app/session/run_estimator.h"
 #include "app/session/scene_summary.h"
-#include "app/session/user_folders.h"
 #include "engine/core/error.h"
 #include "engine/core/text.h"
 #include "engine/evaluation/benchmark_tables.h"
 #include "engine/evaluation/parameter_search.h"
 #include "engine/io/base/image_file.h"
-#include "engine/io/base/json.h"
 #include "engine/io/models/result_file.h"
 #include "engine/render/shade.h"
 

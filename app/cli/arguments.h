@@ -46,7 +46,6 @@ struct Extent {
 };
 [[nodiscard]] OptionValue<Extent> extent_value(const std::string& name, int max);
 
-/// One of these names.
 [[nodiscard]] OptionValue<std::string> one_of(const std::vector<std::string>& names);
 
 /// One of these values, by its name.

@@ -8,7 +8,6 @@
 #include "engine/io/models/labels/label_import.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <optional>
 #include <sstream>
 

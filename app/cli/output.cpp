@@ -7,7 +7,6 @@
 #include "engine/core/finding.h"
 #include "engine/core/text.h"
 #include "engine/io/base/atomic_file.h"
-#include "engine/io/base/files.h"
 #include "engine/io/base/hdf5_file.h"
 #include "engine/io/base/json.h"
 #include "engine/io/models/reader.h"

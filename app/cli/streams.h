@@ -35,7 +35,6 @@ class InputStream {
   /// The same for the one of several names. Throws UsageError, too, if more than one is "-".
   InputStream(std::vector<std::string>& names, const std::stop_token& stop);
 
-  /// Whether a path names the file.
   [[nodiscard]] bool is(const std::string& path) const { return !file_.empty() && path == file_; }
   /// "-" for that file, another path as it is.
   [[nodiscard]] std::string shown(const std::string& path) const { return is(path) ? "-" : path; }

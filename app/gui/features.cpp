@@ -49,6 +49,11 @@
 namespace episcope {
 namespace {
 
+template <class Controller>
+void add(const Workbench& bench) {
+  new Controller(bench);
+}
+
 // Painting labels on views: tools, labels, scribbles, their files, and recovery after a crash.
 void add_annotating(const Workbench& bench) {
   auto* tab = new QWidget(&bench.frame);
@@ -56,12 +61,7 @@ void add_annotating(const Workbench& bench) {
   auto* palette = new LabelPalette(tab);
   auto* bar = new AnnotationBar(tab);
   auto* room = new QVBoxLayout;
-  auto* layout = new QVBoxLayout(tab);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->addWidget(brush);
-  layout->addWidget(palette, 1);
-  layout->addLayout(room);
-  layout->addWidget(bar);
+  make_column(tab, {brush, {palette, 1}, room, bar});
   bench.frame.addTab({.id = "annotate",
                       .title = AnnotateController::tr("Annotate"),
                       .page = AnnotateController::tr("Paint"),
@@ -87,7 +87,6 @@ void add_browsing(const Workbench& bench) {
   new ValueController(bench);
 }
 
-// Adds the Capture tab and its commands.
 void add_capture(const Workbench& bench) {
   auto* tab = new QWidget(&bench.frame);
   bench.frame.addTab({.id = "capture",
@@ -102,30 +101,28 @@ void add_capture(const Workbench& bench) {
 
 void add_commands(const Workbench& bench, CloudController* cloud) {
   bench.commands.add(
-      {.id = "cloud.large",
-       .menu = Menu::Panes,
-       .text = CloudController::tr("3D in place of the view"),
-       .tip = CloudController::tr(
-           "Shows the 3D view in place of the current view, or moves it back into its tab"),
-       .icon = "cube",
-       .keys = {Qt::Key_F4},
-       .run = [cloud] { cloud->setLarge(!cloud->isLarge()); },
-       .checked = [cloud] { return cloud->isLarge(); }});
-  bench.commands.add(
-      {.id = "cloud.window",
-       .menu = Menu::Panes,
-       .text = CloudController::tr("3D in its own window"),
-       .tip = CloudController::tr(
-           "Detaches the 3D view and its controls into their own window, or docks them again"),
-       .icon = "sides",
-       .keys = {CloudController::tr("Shift+F4")},
-       .run =
-           [&frame = bench.frame, cloud] {
-             cloud->setLarge(false);
-             frame.showTab("cloud");
-             frame.panes().toggle("tab.cloud");
-           },
-       .checked = [&frame = bench.frame] { return frame.panes().isTorn("tab.cloud"); }});
+      {.menu = Menu::Panes},
+      {{.id = "cloud.large",
+        .text = CloudController::tr("3D in place of the view"),
+        .tip = CloudController::tr(
+            "Shows the 3D view in place of the current view, or moves it back into its tab"),
+        .icon = "cube",
+        .keys = {Qt::Key_F4},
+        .run = [cloud] { cloud->setLarge(!cloud->isLarge()); },
+        .checked = [cloud] { return cloud->isLarge(); }},
+       {.id = "cloud.window",
+        .text = CloudController::tr("3D in its own window"),
+        .tip = CloudController::tr(
+            "Detaches the 3D view and its controls into their own window, or docks them again"),
+        .icon = "sides",
+        .keys = {CloudController::tr("Shift+F4")},
+        .run =
+            [&frame = bench.frame, cloud] {
+              cloud->setLarge(false);
+              frame.showTab("cloud");
+              frame.panes().toggle("tab.cloud");
+            },
+        .checked = [&frame = bench.frame] { return frame.panes().isTorn("tab.cloud"); }}});
   bench.commands.add({.id = "cloud.export",
                       .menu = Menu::Export,
                       .text = CloudController::tr("3D view…"),
@@ -164,12 +161,7 @@ void add_comparing(const Workbench& bench) {
   auto* statistics = new StatisticsPanel(tab);
   auto* region = new RegionBar(tab);
   auto* metrics = new MetricTable(tab);
-  auto* layout = new QVBoxLayout(tab);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->addWidget(bar);
-  layout->addWidget(statistics);
-  layout->addWidget(region);
-  layout->addWidget(metrics, 1);
+  make_column(tab, {bar, statistics, region, {metrics, 1}});
   bench.frame.addTab({.id = "compare",
                       .title = CompareController::tr("Compare"),
                       .page = CompareController::tr("Table"),
@@ -186,16 +178,6 @@ void add_comparing(const Workbench& bench) {
   new MovieExport(bench);
 }
 
-// Running methods, and the list of results.
-void add_estimating(const Workbench& bench) {
-  new EstimateController(bench);
-}
-
-// Opening light fields and results by dialog, by drop or from recent inputs; closing.
-void add_files(const Workbench& bench) {
-  new FileController(bench);
-}
-
 constexpr int kIconSize = 64;
 
 struct HelpText {
@@ -210,13 +192,15 @@ void show_shortcuts(Commands& commands, QWidget& window) {
 }
 
 void show_about(QWidget& window) {
-  auto* box = new QMessageBox(
-      QMessageBox::NoIcon, HelpText::tr("About Episcope"),
-      HelpText::tr("<b>Episcope %1</b><p>Views, EPIs, disparity and labels of 4D light fields.</p>"
-                   "<p>BSD 3-Clause license.</p>")
-          .arg(kVersion),
-      QMessageBox::Close, &window);
-  box->setObjectName("about");
+  auto* box =
+      named("about",
+            new QMessageBox(
+                QMessageBox::NoIcon, HelpText::tr("About Episcope"),
+                HelpText::tr(
+                    "<b>Episcope %1</b><p>Views, EPIs, disparity and labels of 4D light fields.</p>"
+                    "<p>BSD 3-Clause license.</p>")
+                    .arg(kVersion),
+                QMessageBox::Close, &window));
   box->setIconPixmap(program_icon().pixmap(kIconSize));
   box->setAttribute(Qt::WA_DeleteOnClose);
   box->open();
@@ -230,39 +214,31 @@ void add_help(const Workbench& bench) {
   add_theme_commands(commands);
   add_language_commands(commands, bench.messages);
   auto* manual = new ManualWindow(&window);
-  commands.add({.id = "help.manual",
-                .menu = Menu::Help,
-                .text = HelpText::tr("Manual"),
-                .tip = HelpText::tr("Opens the pages of the manual"),
-                .icon = "info",
-                .run = [manual] { manual->open("index.md"); }});
-  commands.add({.id = "help.keys",
-                .menu = Menu::Help,
-                .text = HelpText::tr("Keys and mouse"),
-                .tip = HelpText::tr("Lists every key and mouse gesture"),
-                .icon = "help",
-                .keys = {Qt::Key_F1, Qt::Key_Question},
-                .run = [&commands, &window] { show_shortcuts(commands, window); },
-                .bar = BarSection::Help});
-  commands.add({.id = "help.palette",
-                .menu = Menu::Help,
-                .text = HelpText::tr("Find a command…"),
-                .tip = HelpText::tr(
-                    "Finds commands, methods, open and recent light fields by words of their "
-                    "names and descriptions"),
-                .keys = {HelpText::tr("Ctrl+Shift+P")},
-                .run = [palette] { palette->popUp(); }});
-  commands.add({.id = "help.about",
-                .menu = Menu::Help,
-                .text = HelpText::tr("About Episcope"),
-                .tip = HelpText::tr("Shows version and license"),
-                .icon = "info",
-                .run = [&window] { show_about(window); }});
-}
-
-// The Measure tab, which is hidden until asked for.
-void add_measuring(const Workbench& bench) {
-  new MeasureController(bench);
+  commands.add({.menu = Menu::Help},
+               {{.id = "help.manual",
+                 .text = HelpText::tr("Manual"),
+                 .tip = HelpText::tr("Opens the pages of the manual"),
+                 .icon = "info",
+                 .run = [manual] { manual->open("index.md"); }},
+                {.id = "help.keys",
+                 .text = HelpText::tr("Keys and mouse"),
+                 .tip = HelpText::tr("Lists every key and mouse gesture"),
+                 .icon = "help",
+                 .keys = {Qt::Key_F1, Qt::Key_Question},
+                 .run = [&commands, &window] { show_shortcuts(commands, window); },
+                 .bar = BarSection::Help},
+                {.id = "help.palette",
+                 .text = HelpText::tr("Find a command…"),
+                 .tip = HelpText::tr(
+                     "Finds commands, methods, open and recent light fields by words of their "
+                     "names and descriptions"),
+                 .keys = {HelpText::tr("Ctrl+Shift+P")},
+                 .run = [palette] { palette->popUp(); }},
+                {.id = "help.about",
+                 .text = HelpText::tr("About Episcope"),
+                 .tip = HelpText::tr("Shows version and license"),
+                 .icon = "info",
+                 .run = [&window] { show_about(window); }}});
 }
 
 // The list of open light fields, projects, autosave and recovery.
@@ -307,10 +283,10 @@ void add_segmenting(const Workbench& bench) {
 }  // namespace
 
 std::span<const Feature> features() {
-  static constexpr Feature kFeatures[] = {{"files", add_files},
+  static constexpr Feature kFeatures[] = {{"files", add<FileController>},
                                           {"project", add_project},
                                           {"browse", add_browsing},
-                                          {"estimate", add_estimating},
+                                          {"estimate", add<EstimateController>},
                                           {"compare", add_comparing},
                                           {"annotate", add_annotating},
                                           {"segment", add_segmenting},
@@ -318,7 +294,7 @@ std::span<const Feature> features() {
                                           {"collection", add_collection},
                                           {"review", add_reviewing},
                                           {"capture", add_capture},
-                                          {"measure", add_measuring},
+                                          {"measure", add<MeasureController>},
                                           {"help", add_help}};
   return kFeatures;
 }

@@ -15,6 +15,7 @@
 #include "app/session/session.h"
 #include "engine/core/parallel.h"
 #include "widgets/canvas/view_canvas.h"
+#include "widgets/controls/tool_button.h"
 
 #include <QByteArray>
 #include <QCloseEvent>
@@ -170,28 +171,25 @@ void Layout::toggleFullScreen() {
 }
 
 void Layout::addScreenCommands() {
-  bench_.commands.add({.id = "view.full_screen",
-                       .menu = Menu::View,
-                       .text = tr("Full screen"),
-                       .tip = tr("Turns full screen on or off"),
-                       .keys = {Qt::Key_F11},
-                       .run = [this] { toggleFullScreen(); },
-                       .section = section::kTabs,
-                       .checked = [this] { return window_.isFullScreen(); }});
-  bench_.commands.add({.id = "view.panels",
-                       .menu = Menu::View,
-                       .text = tr("Side panels"),
-                       .tip = tr("Shows the views at the left and the tabs at the right; without "
-                                 "them, the view has all the room"),
-                       .keys = {tr("Shift+F11")},
-                       .run =
-                           [this] {
-                             Frame& frame = bench_.frame;
-                             frame.setPanelsShown(!frame.arePanelsShown());
-                             bench_.commands.refresh();
-                           },
-                       .section = section::kTabs,
-                       .checked = [this] { return bench_.frame.arePanelsShown(); }});
+  bench_.commands.add({.menu = Menu::View, .section = section::kTabs},
+                      {{.id = "view.full_screen",
+                        .text = tr("Full screen"),
+                        .tip = tr("Turns full screen on or off"),
+                        .keys = {Qt::Key_F11},
+                        .run = [this] { toggleFullScreen(); },
+                        .checked = [this] { return window_.isFullScreen(); }},
+                       {.id = "view.panels",
+                        .text = tr("Side panels"),
+                        .tip = tr("Shows the views at the left and the tabs at the right; without "
+                                  "them, the view has all the room"),
+                        .keys = {tr("Shift+F11")},
+                        .run =
+                            [this] {
+                              Frame& frame = bench_.frame;
+                              frame.setPanelsShown(!frame.arePanelsShown());
+                              bench_.commands.refresh();
+                            },
+                        .checked = [this] { return bench_.frame.arePanelsShown(); }}});
 }
 
 void Layout::addPaneCommands() {
@@ -372,8 +370,7 @@ void MainWindow::addTabCommands() {
 
 void MainWindow::buildBars() {
   core_->commands.fillMenus(*menuBar());
-  auto* bar = new QToolBar(tr("Main tool bar"), this);
-  bar->setObjectName("tool_bar");
+  auto* bar = named("tool_bar", new QToolBar(tr("Main tool bar"), this));
   bar->setMovable(false);
   bar->setContextMenuPolicy(Qt::PreventContextMenu);
   core_->commands.fillBar(*bar);

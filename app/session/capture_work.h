@@ -74,7 +74,6 @@ struct CaptureWork {
   friend bool operator==(const CaptureWork&, const CaptureWork&) = default;
 };
 
-/// The lens of a calibration.
 [[nodiscard]] CaptureLens lens_of(const capture::Calibration& calibration);
 
 /// Computes the pose of every object with at least 4 pairs. Returns why the current object has
@@ -150,7 +149,6 @@ class CaptureDocument {
 
   /// Adds an object with this mesh, named after its file, and chooses it.
   void add_object(const std::string& mesh);
-  /// Removes the current object.
   void remove_object();
   /// Ignored if the name is empty or taken.
   void rename_object(const std::string& name);

@@ -76,7 +76,6 @@ struct LabelAmount {
 [[nodiscard]] std::vector<LabelAmount> label_amounts(ImageView<const std::uint8_t> labels,
                                                      const DisparityView& disparity);
 
-/// Summary of a label in one view.
 struct LabelSummary {
   LabelAmount amount;
   std::vector<LabelPiece> pieces;  ///< As `pieces_of`.

@@ -112,15 +112,6 @@ bool has_same_strokes(const ScribbleLayer* a, const ScribbleLayer& b, ViewIndex 
   return std::equal(now.data, now.data + now.size(), before.data);
 }
 
-}  // namespace
-
-LabelingPtr label_live(Labeler& labeler, const LabelingInput& input, ViewIndex view,
-                       const std::function<void(LabelingPtr)>& on_draft, const Progress& progress) {
-  return std::make_shared<const Labeling>(
-      labeler.label(scribbles_of(*input.scribbles), possible_parameters(input), {view, {1, 1}},
-                    progress, [&](const Labeling& draft) { on_draft(draft_of(draft)); }));
-}
-
 LabelingPtr correct_all_views(Labeler& labeler, const LabelingInput& input,
                               const KnownLabeling& before, ViewIndex first,
                               const CorrectionNews& news, const Progress& progress) {
@@ -139,7 +130,16 @@ LabelingPtr correct_all_views(Labeler& labeler, const LabelingInput& input,
   return corrected ? std::make_shared<const Labeling>(std::move(*corrected)) : nullptr;
 }
 
-namespace {
+// Segments one view while somebody paints: `on_draft` gets the most probable label of each pixel
+// if smoothing is still to come. `labeler` keeps features between calls; it must have been made
+// for the input's light field, disparity and edges. The labeling covers the view alone. Throws
+// InvalidInput unless two labels are painted, Cancelled.
+LabelingPtr label_live(Labeler& labeler, const LabelingInput& input, ViewIndex view,
+                       const std::function<void(LabelingPtr)>& on_draft, const Progress& progress) {
+  return std::make_shared<const Labeling>(
+      labeler.label(scribbles_of(*input.scribbles), possible_parameters(input), {view, {1, 1}},
+                    progress, [&](const Labeling& draft) { on_draft(draft_of(draft)); }));
+}
 
 // What must be painted before there is anything to learn; empty if nothing is missing.
 std::string missing_scribbles(const LabelingInput& input) {

@@ -17,14 +17,6 @@
 
 namespace episcope {
 
-/// Segments one view while somebody paints: `on_draft` gets the most probable label of each pixel
-/// if smoothing is still to come. `labeler` keeps features between calls; it must have been made
-/// for the input's light field, disparity and edges. The labeling covers the view alone. Throws
-/// InvalidInput unless two labels are painted, Cancelled.
-[[nodiscard]] LabelingPtr label_live(Labeler& labeler, const LabelingInput& input, ViewIndex view,
-                                     const std::function<void(LabelingPtr)>& on_draft,
-                                     const Progress& progress);
-
 /// Labels of all views and what they were made from.
 struct KnownLabeling {
   LabelingPtr labeling;
@@ -38,9 +30,6 @@ struct CorrectionNews {
   std::function<void(LabelingPtr)> on_draft;
   std::function<void(ViewIndex)> on_view;
 };
-[[nodiscard]] LabelingPtr correct_all_views(Labeler& labeler, const LabelingInput& input,
-                                            const KnownLabeling& before, ViewIndex first,
-                                            const CorrectionNews& news, const Progress& progress);
 
 /// State of a live segmentation.
 enum class LiveState : std::uint8_t {

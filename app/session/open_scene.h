@@ -138,7 +138,6 @@ struct OpenScene {
 /// The place, moved into a light field that may have become another since it was looked at.
 [[nodiscard]] ScenePlace within(const LightField& light_field, ScenePlace place);
 
-/// Bytes of memory that the maps of an estimate take.
 [[nodiscard]] std::size_t byte_size(const Estimate& estimate);
 /// Bytes of memory that the samples, the truth and the estimates of a scene take, about.
 [[nodiscard]] std::size_t byte_size(const OpenScene& scene);
@@ -165,7 +164,6 @@ enum class Part : unsigned {
   FoundRange = 131072,  ///< The range of disparities found from the images.
 };
 
-/// A set of parts.
 class Parts {
  public:
   Parts() = default;

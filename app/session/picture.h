@@ -85,7 +85,6 @@ struct Movie {
 void write_movie(const std::filesystem::path& path, const Movie& movie, int width_px,
                  const Progress& progress);
 
-/// What colors the points.
 enum class PointCloudColoring {
   View,      ///< The view itself.
   Map,       ///< A map of each source.

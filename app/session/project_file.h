@@ -13,7 +13,6 @@
 
 namespace episcope {
 
-/// A result of a project.
 struct ProjectResult {
   std::string name;            ///< As the user calls it.
   std::filesystem::path file;  ///< That holds it; empty = none does yet.
@@ -53,7 +52,6 @@ struct Project {
   std::filesystem::path saved_as;  ///< Of a workspace: the user's own file of it; empty = none yet.
 };
 
-/// Suffix of project files.
 inline constexpr const char* kProjectSuffix = ".episcope";
 
 /// Whether a path is named like a project file.

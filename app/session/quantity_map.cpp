@@ -308,10 +308,6 @@ Map segmentation_map(const MapSource& source) {
 
 }  // namespace
 
-bool has_quantity(const Estimate& estimate, Quantity quantity) {
-  return result_map_of(quantity).coverage(estimate).grid.count() > 0;
-}
-
 QuantityMapPtr make_map(const MapSource& source) {
   switch (render::info_of(source.quantity).subject) {
     case Subject::LightField:
@@ -363,7 +359,8 @@ bool is_available(const Session& session, Quantity quantity) {
     case Subject::TrueLabels:
       return session.true_labels() != nullptr;
     case Subject::Result:
-      return session.side_a() && has_quantity(*session.side_a()->estimate, quantity);
+      return session.side_a() &&
+             result_map_of(quantity).coverage(*session.side_a()->estimate).grid.count() > 0;
     case Subject::Error:
       return session.side_a() && is_available_of(*scene->truth, Quantity::Truth);
     case Subject::ResultPair:

@@ -78,9 +78,6 @@ struct QuantityMap {
 
 using QuantityMapPtr = std::shared_ptr<const QuantityMap>;
 
-/// Whether a result has this quantity, one of Subject::Result, in any view.
-[[nodiscard]] bool has_quantity(const Estimate& estimate, render::Quantity quantity);
-
 /// Makes the map; for any thread. Null for Quantity::View, whose samples are in the light field.
 /// Preconditions: `reason_against(source)` is empty; there is an evaluation if the quantity is an
 /// error.

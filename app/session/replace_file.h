@@ -17,7 +17,6 @@ enum class Overwrite { No, Yes };
 /// How a user asks for it: the end of a sentence.
 inline constexpr const char* kByOption = "replace it with --overwrite";
 
-/// Whether there is a file with something in it.
 [[nodiscard]] bool holds_something(const std::filesystem::path& path);
 /// Whether a file is a result, or labels that `label` wrote; false also for a damaged one.
 [[nodiscard]] bool is_sound_result(const std::filesystem::path& path);

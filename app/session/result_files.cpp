@@ -305,11 +305,12 @@ std::string both_numbers(const io::BetterReading& found) {
   return text;
 }
 
-}  // namespace
-
+// Options that read a map so, as on the command line: " --map-transpose --map-scale=0.01".
 std::string map_options_text(const io::MapReading& reading) {
   return options_text(io::given_options(reading), io::map_schema().descriptions());
 }
+
+}  // namespace
 
 std::string better_reading_finding(const io::BetterReading& found) {
   const bool is_by_truth = found.as_read.mse_100.has_value();

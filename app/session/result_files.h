@@ -71,9 +71,6 @@ namespace episcope {
 [[nodiscard]] std::string doubt_text(const std::optional<io::BetterReading>& better,
                                      const Estimate& estimate, const Scene& scene);
 
-/// Options that read a map so, as on the command line: " --map-transpose --map-scale=0.01".
-[[nodiscard]] std::string map_options_text(const io::MapReading& reading);
-
 /// Says so with both numbers: "the map fits the truth far better with rows and columns exchanged
 /// (…)", and whether the views contradict it.
 [[nodiscard]] std::string better_reading_finding(const io::BetterReading& found);
@@ -158,7 +155,6 @@ enum class MapForm {
 };
 /// Empty for another suffix.
 [[nodiscard]] std::optional<MapForm> map_form_of(const std::filesystem::path& path);
-/// Whether the form has a place for the maps of all views.
 [[nodiscard]] bool holds_all_views(MapForm form);
 
 /// Writes a result file; `input` is what opens the light field. Atomic. Throws IoError, Cancelled.

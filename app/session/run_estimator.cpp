@@ -8,7 +8,6 @@
 #include "engine/core/hash.h"
 #include "engine/core/memory.h"
 #include "engine/core/version.h"
-#include "engine/disparity/registry.h"
 #include "engine/io/base/json.h"
 #include "engine/io/models/result_draft.h"
 

@@ -48,7 +48,6 @@ struct LabelingInput {
 
 /// Whether two inputs give the same labels.
 [[nodiscard]] bool is_same(const LabelingInput& a, const LabelingInput& b);
-/// Whether two inputs are the same but for strokes.
 [[nodiscard]] bool is_same_but_strokes(const LabelingInput& a, const LabelingInput& b);
 
 /// The parameters that the input allows: without a disparity, features of images and smoothing view
@@ -65,7 +64,6 @@ struct LabelFinish {
   friend bool operator==(const LabelFinish&, const LabelFinish&) = default;
 };
 
-/// A segmentation as files hold it.
 struct Segmentation {
   LabelingPtr labeling;           ///< Covers one view or all; not null.
   std::vector<LabelInfo> labels;  ///< Names and colors, by id.
@@ -144,7 +142,6 @@ struct KeptLabels {
   [[nodiscard]] bool is_worth_keeping() const { return covers_many() || is_imported; }
 };
 
-/// Hash of the pixels and labels of strokes.
 [[nodiscard]] std::uint64_t hash_of(const ScribbleLayer& strokes);
 
 /// Writes labels without their probabilities, which take four bytes for each ray and label. Throws

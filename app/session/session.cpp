@@ -280,10 +280,6 @@ void Session::set_display(render::Quantity quantity, std::map<render::Quantity, 
   changed(Part::Display);
 }
 
-void Session::set_capture(const CaptureWork& work) {
-  if (now_->scene) set_capture(now_->id, work);
-}
-
 void Session::set_capture(std::uint64_t id, const CaptureWork& work) {
   OpenScene* scene = open_scene(id);
   if (!scene) return;

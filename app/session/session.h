@@ -13,6 +13,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace episcope {
@@ -188,7 +189,9 @@ class Session {
     set(&ScenePlace::measured, measured, Part::Measured);
   }
   /// Sets the work between photographs and ground truth.
-  void set_capture(const CaptureWork& work);
+  void set_capture(const CaptureWork& work) {
+    if (now_->scene) set_capture(now_->id, work);
+  }
   /// Sets the work of any open scene. Unknown scenes are ignored.
   void set_capture(std::uint64_t scene, const CaptureWork& work);
   /// Sets which pixels metrics of an open scene cover. Ignored for an unknown one.

@@ -136,10 +136,6 @@ std::size_t point_count(const Sweep& sweep) {
 
 }  // namespace
 
-void SweepList::changed() const {
-  for (const auto& listener : listeners_) listener();
-}
-
 const Sweep* SweepList::find(std::uint64_t id) const {
   const auto found = std::ranges::find(sweeps_, id, &Sweep::id);
   return found == sweeps_.end() ? nullptr : &*found;

@@ -30,7 +30,6 @@ struct SweptParameter {
     const std::vector<ParameterDescription>& descriptions, const ParameterSet& base,
     const std::vector<SweptParameter>& swept);
 
-/// Result of a point.
 struct SweepPoint {
   ParameterSet point{};    ///< The swept parameters.
   EstimatePtr estimate{};  ///< Of the center view; null if the run failed or it was dropped.
@@ -76,7 +75,6 @@ struct Sweep {
 /// `values` overridden by `point`.
 [[nodiscard]] ParameterSet values_at(const ParameterSet& values, const ParameterSet& point);
 
-/// A point of a sweep.
 struct SweepPlace {
   std::size_t scene = 0;  ///< Among Sweep::scenes.
   std::size_t point = 0;
@@ -112,7 +110,9 @@ class SweepList {
 
  private:
   [[nodiscard]] Sweep* find_own(std::uint64_t id);
-  void changed() const;
+  void changed() const {
+    for (const auto& listener : listeners_) listener();
+  }
   void keep_map(SweepPoint& point, EstimatePtr map) const;
 
   std::vector<std::function<void()>> listeners_;
@@ -120,7 +120,6 @@ class SweepList {
   std::uint64_t last_id_ = 0;
 };
 
-/// What a sweep measures of its points.
 enum class SweepMeasure { MseTimes100, BadPix007, BadPix003, BadPix001, Seconds, Change };
 
 /// MSE by vmv2013; BadPix by benchmark2016, in low resolution where the official one differs, and

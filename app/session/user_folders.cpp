@@ -102,6 +102,12 @@ bool can_be_written(std::filesystem::path folder) {
   return access(folder.c_str(), W_OK | X_OK) == 0;
 }
 
+// What a session leaves for the next: `$XDG_STATE_HOME/episcope`, else `~/.local/state/episcope`;
+// empty if neither is known.
+std::filesystem::path default_state_folder() {
+  return user_folder("XDG_STATE_HOME", ".local/state");
+}
+
 }  // namespace
 
 std::string file_name_of(std::string name) {
@@ -121,10 +127,6 @@ std::filesystem::path default_cache_folder() {
 void use_cache_for_scratch() {
   const std::filesystem::path cache = default_cache_folder();
   if (!cache.empty() && can_be_written(cache)) set_scratch_folder(cache / "scratch");
-}
-
-std::filesystem::path default_state_folder() {
-  return user_folder("XDG_STATE_HOME", ".local/state");
 }
 
 std::filesystem::path default_journal_folder() {

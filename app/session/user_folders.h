@@ -46,10 +46,6 @@ class KnownFiles {
 /// where it cannot be written, they go to the folder for temporary files.
 void use_cache_for_scratch();
 
-/// What a session leaves for the next: `$XDG_STATE_HOME/episcope`, else `~/.local/state/episcope`;
-/// empty if neither is known.
-[[nodiscard]] std::filesystem::path default_state_folder();
-
 /// Folder of annotation journals: `journals` in the state folder; empty if there is none.
 [[nodiscard]] std::filesystem::path default_journal_folder();
 

@@ -299,6 +299,12 @@ void add_sample(const Image<float>& fine, const PlanePoint& at, float* sum) {
   }
 }
 
+// Position of sample `i` of a pixel with `along`² samples on a regular grid, row by row.
+PlanePoint sample_of_pixel(int y, int x, int along, int i) {
+  const int row = i / along, column = i % along;
+  return {x + (column + 0.5) / along - 0.5, y + (row + 0.5) / along - 0.5};
+}
+
 }  // namespace
 
 Image<std::uint8_t> exposed(const Image<float>& light, const Exposure& exposure) {
@@ -315,11 +321,6 @@ Image<std::uint8_t> exposed(const Image<float>& light, const Exposure& exposure)
     samples.data()[i] = static_cast<std::uint8_t>(std::clamp(std::lround(value), 0L, 255L));
   }
   return samples;
-}
-
-PlanePoint sample_of_pixel(int y, int x, int along, int i) {
-  const int row = i / along, column = i % along;
-  return {x + (column + 0.5) / along - 0.5, y + (row + 0.5) / along - 0.5};
 }
 
 Image<std::uint8_t> photograph(const PlacedScene& scene, const LensCamera& camera,

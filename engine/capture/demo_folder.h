@@ -33,9 +33,6 @@ struct Exposure {
 [[nodiscard]] Image<std::uint8_t> photograph(const PlacedScene& scene, const LensCamera& camera,
                                              const Exposure& exposure, const Progress& progress);
 
-/// Position of sample `i` of a pixel with `along`² samples on a regular grid, row by row.
-[[nodiscard]] PlanePoint sample_of_pixel(int y, int x, int along, int i);
-
 /// Adds Gaussian noise of a seed to samples, and rounds them.
 [[nodiscard]] Image<std::uint8_t> exposed(const Image<float>& light, const Exposure& exposure);
 

@@ -321,14 +321,6 @@ class Reader {
   std::uint64_t end_;
 };
 
-// Checks that a PLY file holds all the elements that its header announces: assimp 5.2 hangs on
-// headers without an end, reads beyond the end of truncated elements, and writes beyond its memory
-// where vertices or faces are listed twice. Linear in the faces.
-// Throws IoError.
-void require_whole_ply(const std::filesystem::path& path) {
-  Reader(path).check();
-}
-
 /// Ends the reading on a stop request.
 class StopHandler : public Assimp::ProgressHandler {
  public:
@@ -442,7 +434,7 @@ TriangleMesh read_mesh(const std::filesystem::path& path, const Progress& progre
   require_readable(path);
   progress.step("reading " + path.filename().string());
   progress.check();
-  if (suffix_of(path) == ".ply") require_whole_ply(path);
+  if (suffix_of(path) == ".ply") Reader(path).check();
   Assimp::Importer importer;
   importer.SetIOHandler(new MeshAlone(path.string()));     // owned by the importer
   importer.SetProgressHandler(new StopHandler(progress));  // likewise

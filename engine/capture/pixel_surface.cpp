@@ -123,6 +123,25 @@ VisiblePart sum_of(const std::vector<Polygon>& pieces, int index) {
   return part;
 }
 
+// Whether an edge of `a` keeps `b` outside, up to rounding; then they do not overlap.
+// Precondition: the area of `a` is not negative.
+bool edge_parts(const Polygon& a, const Polygon& b) {
+  Corner p = a.corners[a.count - 1];
+  for (int i = 0; i < a.count; ++i) {
+    const Corner& q = a.corners[i];
+    const double nx = p.y - q.y;
+    const double ny = q.x - p.x;
+    const double rounding = 1e-12 * (std::abs(nx) + std::abs(ny));
+    bool is_outside = true;
+    for (int k = 0; k < b.count && is_outside; ++k) {
+      is_outside = nx * (b.corners[k].x - p.x) + ny * (b.corners[k].y - p.y) <= rounding;
+    }
+    if (is_outside) return true;
+    p = q;
+  }
+  return false;
+}
+
 }  // namespace
 
 std::vector<VisiblePart> visible_parts(std::span<const ScreenTriangle> triangles) {
@@ -262,23 +281,6 @@ Polygon clipped_to_pixel(const Polygon& polygon) {
   part = clipped(part, {-1, 0, 0.5});
   part = clipped(part, {0, 1, 0.5});
   return clipped(part, {0, -1, 0.5});
-}
-
-bool edge_parts(const Polygon& a, const Polygon& b) {
-  Corner p = a.corners[a.count - 1];
-  for (int i = 0; i < a.count; ++i) {
-    const Corner& q = a.corners[i];
-    const double nx = p.y - q.y;
-    const double ny = q.x - p.x;
-    const double rounding = 1e-12 * (std::abs(nx) + std::abs(ny));
-    bool is_outside = true;
-    for (int k = 0; k < b.count && is_outside; ++k) {
-      is_outside = nx * (b.corners[k].x - p.x) + ny * (b.corners[k].y - p.y) <= rounding;
-    }
-    if (is_outside) return true;
-    p = q;
-  }
-  return false;
 }
 
 void subtract(const Polygon& polygon, const Polygon& hole, std::vector<Polygon>& pieces) {

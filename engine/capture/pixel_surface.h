@@ -46,10 +46,6 @@ struct Polygon {
 /// The part in the square of a pixel around (0, 0).
 [[nodiscard]] Polygon clipped_to_pixel(const Polygon& polygon);
 
-/// Whether an edge of `a` keeps `b` outside, up to rounding; then they do not overlap.
-/// Precondition: the area of `a` is not negative.
-[[nodiscard]] bool edge_parts(const Polygon& a, const Polygon& b);
-
 /// Appends to `pieces` the convex parts of `polygon` outside of the convex `hole`.
 void subtract(const Polygon& polygon, const Polygon& hole, std::vector<Polygon>& pieces);
 
@@ -100,7 +96,6 @@ struct ScreenTriangle {
   return triangle;
 }
 
-/// The part of a triangle in a pixel.
 struct Fragment {
   std::uint32_t triangle = 0;
   float area = 0;  ///< Share of the pixel, whether hidden or not.

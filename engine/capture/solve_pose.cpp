@@ -243,7 +243,6 @@ MinimizedPose minimize_reprojection(std::span<const PointPair> pairs, const Rigi
   return result;
 }
 
-/// The best of all starts.
 MinimizedPose best_pose(std::span<const PointPair> pairs, const Pinhole& pinhole) {
   struct Start {
     double cost;

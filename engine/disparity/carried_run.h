@@ -21,7 +21,6 @@ class CarriedMethod {
 
   [[nodiscard]] virtual ViewIndex first_view() const = 0;
   [[nodiscard]] virtual Interval range() const = 0;
-  /// The light field as its views are compared.
   [[nodiscard]] virtual const LightField& compared() const = 0;
 
   /// The map of the first view, with confidence, range and notes. Throws DeviceFailure, Cancelled.

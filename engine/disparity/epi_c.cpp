@@ -394,6 +394,49 @@ double improve_on_device(const OrderedViews& work, const Progress& progress) {
   return cuda::sweep_in_order(work.light_field, sweeps, work.f, work.confidence, work.u, progress);
 }
 
+Schema<EpiCParameters> epi_c_schema() {
+  using P = EpiCParameters;
+  return Schema<P>()
+      .real("fall", &P::fall,
+            {"Ordering μ₋",
+             "Cost of a line that meets something farther, which violates the ordering"},
+            {0.001, 1, true})
+      .real("rise", &P::rise,
+            {"Occlusion μ₊",
+             "Cost of a line that meets something nearer, which occludes its point; at most μ₋"},
+            {0, 1})
+      .real("softness", &P::softness,
+            {"Quadratic below", "Differences along a line below this are penalized quadratically",
+             "px"},
+            {0.005, 0.5, true})
+      .integer("sweeps", &P::sweeps,
+               {"Sweeps", "Number of times every view is fitted to its neighbors; 0 = off"},
+               {0, 50})
+      .flag("replace_occluded", &P::replace_occluded,
+            {"Replace occluded",
+             "Before the first sweep, replace the disparity of rays that other views see through"})
+      .part(&P::line_check, line_check_schema())
+      .part(&P::denoising, denoise_schema())
+      .part(&P::tensor, epi_l_schema())
+      .begin_with(kProfileKey)
+      .preset(kProfileKey, kPaperProfile, plain_denoising())
+      .preset(kProfileKey, kPaperProfile,
+              {{"lambda", 0.1},
+               {"rise", 0.01},
+               {"sweeps", 4},
+               {"choose_sides", false},
+               {"check_lines", false},
+               {"replace_occluded", false}})
+      .preset_search(kProfileKey, kPaperProfile, "lambda", {0.05, 0.1, 0.2, 0.4})
+      .search("lambda", {0.03, 0.06, 0.12, 0.24})
+      .search("fall", {0.03, 0.1, 0.3});
+}
+
+// Note of a result about both shares.
+std::string ordering_note(double before, double after) {
+  return fmt::format(finding_text("ordering"), 100 * after, 100 * before);
+}
+
 }  // namespace
 
 double denoise_with_ordering(const LightField& lf, const EpiCParameters& parameters,
@@ -448,48 +491,6 @@ double ordering_violations(const ViewStack<float>& disparity, const Progress& pr
   LineCount sum;
   for (const LineCount& count : counts) sum += count;
   return sum.share();
-}
-
-std::string ordering_note(double before, double after) {
-  return fmt::format(finding_text("ordering"), 100 * after, 100 * before);
-}
-
-Schema<EpiCParameters> epi_c_schema() {
-  using P = EpiCParameters;
-  return Schema<P>()
-      .real("fall", &P::fall,
-            {"Ordering μ₋",
-             "Cost of a line that meets something farther, which violates the ordering"},
-            {0.001, 1, true})
-      .real("rise", &P::rise,
-            {"Occlusion μ₊",
-             "Cost of a line that meets something nearer, which occludes its point; at most μ₋"},
-            {0, 1})
-      .real("softness", &P::softness,
-            {"Quadratic below", "Differences along a line below this are penalized quadratically",
-             "px"},
-            {0.005, 0.5, true})
-      .integer("sweeps", &P::sweeps,
-               {"Sweeps", "Number of times every view is fitted to its neighbors; 0 = off"},
-               {0, 50})
-      .flag("replace_occluded", &P::replace_occluded,
-            {"Replace occluded",
-             "Before the first sweep, replace the disparity of rays that other views see through"})
-      .part(&P::line_check, line_check_schema())
-      .part(&P::denoising, denoise_schema())
-      .part(&P::tensor, epi_l_schema())
-      .begin_with(kProfileKey)
-      .preset(kProfileKey, kPaperProfile, plain_denoising())
-      .preset(kProfileKey, kPaperProfile,
-              {{"lambda", 0.1},
-               {"rise", 0.01},
-               {"sweeps", 4},
-               {"choose_sides", false},
-               {"check_lines", false},
-               {"replace_occluded", false}})
-      .preset_search(kProfileKey, kPaperProfile, "lambda", {0.05, 0.1, 0.2, 0.4})
-      .search("lambda", {0.03, 0.06, 0.12, 0.24})
-      .search("fall", {0.03, 0.1, 0.3});
 }
 
 Estimate estimate_epi_c(const LightField& lf, const EpiCParameters& parameters, ViewSelection views,

@@ -47,8 +47,6 @@ struct EpiCParameters {
   EpiLParameters tensor{.cross_scale = kCrossScaleOfDenoised};
 };
 
-[[nodiscard]] Schema<EpiCParameters> epi_c_schema();
-
 /// EPI_C: the estimate of EPI_L, denoised for all views at once under an occlusion ordering.
 ///
 /// In an opaque scene the line of a visible point meets, in any other view, the same point or
@@ -101,9 +99,6 @@ double denoise_with_ordering(const LightField& light_field, const EpiCParameters
 /// D u < −0.05 px at u itself. `disparity` covers all views. Throws Cancelled.
 [[nodiscard]] double ordering_violations(const ViewStack<float>& disparity,
                                          const Progress& progress, Device device = Device::Cpu);
-
-/// Note of a result about both shares.
-[[nodiscard]] std::string ordering_note(double before, double after);
 
 [[nodiscard]] Estimator epi_c_estimator();
 

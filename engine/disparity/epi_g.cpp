@@ -96,12 +96,6 @@ void check_directions(const LightField& lf, const LineCheck& check,
   check_lines(views, check, directions.vertical, progress.part(0.6, 1));
 }
 
-}  // namespace
-
-Names<DirectionCosts> names_of(DirectionCosts) {
-  return {{DirectionCosts::Sum, "sum"}, {DirectionCosts::Least, "least"}};
-}
-
 Schema<EpiGParameters> epi_g_schema() {
   using P = EpiGParameters;
   return Schema<P>()
@@ -133,6 +127,12 @@ Schema<EpiGParameters> epi_g_schema() {
       .search("smoothness", {0.75, 1.5, 3, 6, 12})
       .search("weight_power", {0, 2, 8})
       .search("truncation", {0.1, 0.3, 1});
+}
+
+}  // namespace
+
+Names<DirectionCosts> names_of(DirectionCosts) {
+  return {{DirectionCosts::Sum, "sum"}, {DirectionCosts::Least, "least"}};
 }
 
 Estimate estimate_epi_g(const LightField& lf, const EpiGParameters& parameters,

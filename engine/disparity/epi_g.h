@@ -11,7 +11,6 @@ namespace episcope {
 enum class DirectionCosts { Sum, Least };
 [[nodiscard]] Names<DirectionCosts> names_of(DirectionCosts);
 
-/// Parameters of EPI_G: the labeling, and the parameters of EPI_L.
 struct EpiGParameters {
   GlobalLabelingParameters labeling{.smoothness = 1.6, .edge_strength = 20, .settling = 3};
   int labels = 64;
@@ -21,8 +20,6 @@ struct EpiGParameters {
   LineCheck line_check = {};
   EpiLParameters tensor{.cross_scale = kCrossScaleOfDenoised};
 };
-
-[[nodiscard]] Schema<EpiGParameters> epi_g_schema();
 
 /// EPI_G: a globally optimal labeling of the center view from its horizontal and vertical EPIs
 /// (EPI_L before merging): ρ(x, l) = r_h^p min(|l − d_h|, κ) + r_v^p min(|l − d_v|, κ), labels

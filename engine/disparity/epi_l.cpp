@@ -3,6 +3,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
+#include "engine/disparity/disparity_range.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,6 +30,11 @@ Schema<EpiLParameters> scales_schema() {
       .real("cross_scale", &P::cross_scale,
             {"Cross scale", "Standard deviation of the same window across neighboring EPIs", "px"},
             {0, 2});
+}
+
+// Scales and shears that the structure tensor takes from the parameters.
+TensorScales scales_of(const EpiLParameters& p) {
+  return {p.inner_scale, p.outer_scale, p.view_scale, p.cross_scale, p.contrast, p.noise};
 }
 
 }  // namespace
@@ -94,10 +100,6 @@ Schema<EpiLParameters> epi_l_schema() {
       .preset_search(kProfileKey, kPaperProfile, "inner_scale", {0.4, 0.6, 0.8, 1, 1.2})
       .preset_search(kProfileKey, kPaperProfile, "outer_scale", {0.5, 0.8, 1, 1.3, 1.6, 2})
       .preset_search(kProfileKey, kPaperProfile, "view_scale", {0.8, 1.3});
-}
-
-TensorScales scales_of(const EpiLParameters& p) {
-  return {p.inner_scale, p.outer_scale, p.view_scale, p.cross_scale, p.contrast, p.noise};
 }
 
 TensorSearch search_of(const EpiLParameters& p, Interval range) {
@@ -351,6 +353,20 @@ std::function<double(int rows)> orientation_bytes(const LightField& lf, const Ma
   };
 }
 
+BlockwiseRun epi_l_in_blocks(const LightField& lf, const EpiLParameters& parameters,
+                             ViewSelection views, const Progress& progress) {
+  BlockwiseRun run = orientations_in_blocks(lf, parameters, views, progress);
+  BlockPass& pass = run.passes.front();
+  pass.compute = [orientations = std::move(pass.compute), range = run.provenance.range](
+                     const MapBlock& block, const ReadBlock& read, const std::vector<double>& facts,
+                     const Progress& part) {
+    FinishedBlock made = orientations(block, read, facts, part.part(0, 0.97));
+    clamp_to_range(made.maps.field.disparity, range, part.part(0.97, 1));
+    return made;
+  };
+  return run;
+}
+
 }  // namespace
 
 Estimate estimate_epi_l(const LightField& lf, const EpiLParameters& parameters, ViewSelection views,
@@ -383,20 +399,6 @@ Estimate estimate_orientations(const LightField& lf, const EpiLParameters& param
   find_orientations({lf, estimate.field.disparity, estimate.confidence}, parameters, estimate.range,
                     progress.part(0.05, 1));
   return estimate;
-}
-
-BlockwiseRun epi_l_in_blocks(const LightField& lf, const EpiLParameters& parameters,
-                             ViewSelection views, const Progress& progress) {
-  BlockwiseRun run = orientations_in_blocks(lf, parameters, views, progress);
-  BlockPass& pass = run.passes.front();
-  pass.compute = [orientations = std::move(pass.compute), range = run.provenance.range](
-                     const MapBlock& block, const ReadBlock& read, const std::vector<double>& facts,
-                     const Progress& part) {
-    FinishedBlock made = orientations(block, read, facts, part.part(0, 0.97));
-    clamp_to_range(made.maps.field.disparity, range, part.part(0.97, 1));
-    return made;
-  };
-  return run;
 }
 
 BlockwiseRun orientations_in_blocks(const LightField& lf, const EpiLParameters& parameters,

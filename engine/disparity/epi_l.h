@@ -3,7 +3,6 @@
 
 #include "engine/core/schema.h"
 #include "engine/cuda/orientations.h"
-#include "engine/disparity/disparity_range.h"
 #include "engine/disparity/estimator.h"
 #include "engine/disparity/structure_tensor.h"
 
@@ -42,8 +41,6 @@ struct EpiLParameters {
 /// Schema without the profile, for methods that the paper does not have.
 [[nodiscard]] Schema<EpiLParameters> orientation_schema();
 
-/// Scales and shears that the structure tensor takes from the parameters.
-[[nodiscard]] TensorScales scales_of(const EpiLParameters& parameters);
 [[nodiscard]] TensorSearch search_of(const EpiLParameters& parameters, Interval range);
 
 /// EPI_L: disparity of every ray from the orientation of lines on the horizontal and vertical
@@ -68,11 +65,8 @@ struct EpiLParameters {
                                              const EpiLParameters& parameters, ViewSelection views,
                                              const Progress& progress, Device device = Device::Cpu);
 
-/// Run both block by block, in bands of rows. A band depends on the samples of rows within the
-/// reach of the structure tensor.
-[[nodiscard]] BlockwiseRun epi_l_in_blocks(const LightField& light_field,
-                                           const EpiLParameters& parameters, ViewSelection views,
-                                           const Progress& progress);
+/// Runs it block by block, in bands of rows. A band depends on the samples of rows within the reach
+/// of the structure tensor.
 [[nodiscard]] BlockwiseRun orientations_in_blocks(const LightField& light_field,
                                                   const EpiLParameters& parameters,
                                                   ViewSelection views, const Progress& progress);
@@ -99,7 +93,6 @@ struct DirectionalOrientations {
                                                           const Progress& progress,
                                                           Device device = Device::Cpu);
 
-/// Clamps every disparity to the range.
 void clamp_to_range(ViewStack<float>& disparity, Interval range, const Progress& progress);
 
 [[nodiscard]] Estimator epi_l_estimator();

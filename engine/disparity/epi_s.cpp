@@ -86,33 +86,8 @@ Estimate estimate_on_gpu(const LightField& lf, const EpiSParameters& parameters,
   return estimate;
 }
 
-}  // namespace
-
-Schema<EpiSParameters> epi_s_schema() {
-  return Schema<EpiSParameters>()
-      .part(&EpiSParameters::denoising, denoise_schema())
-      .part(&EpiSParameters::line_check, line_check_schema())
-      .part(&EpiSParameters::tensor, epi_l_schema())
-      .begin_with(kProfileKey)
-      .preset(kProfileKey, kPaperProfile, plain_denoising())
-      .preset(kProfileKey, kPaperProfile,
-              {{"lambda", 0.2}, {"choose_sides", false}, {"check_lines", false}})
-      .preset_search(kProfileKey, kPaperProfile, "lambda", {0.02, 0.05, 0.1, 0.2, 0.4, 0.8})
-      .search("lambda", {0.05, 0.1, 0.2, 0.4, 0.8})
-      .search("weight_power", {0, 2, 4, 8})
-      .search("edge_strength", {0, 15, 30});
-}
-
-Estimate estimate_epi_s(const LightField& lf, const EpiSParameters& parameters, ViewSelection views,
-                        const Progress& progress, Device device) {
-  if (device == Device::Cuda) return estimate_on_gpu(lf, parameters, views, progress);
-  Estimate estimate = estimate_orientations(lf, parameters.tensor, views, progress.part(0, 0.4));
-  check_lines(lf, parameters.line_check, estimate, progress.part(0.4, 0.5));
-  denoise(lf, parameters.denoising, estimate, progress.part(0.5, 0.98), least_weight(parameters));
-  clamp_to_range(estimate.field.disparity, estimate.range, progress.part(0.98, 1));
-  return estimate;
-}
-
+// Runs EPI_S block by block: orientations in bands of rows, then single views, each of which needs
+// up to 16 others.
 BlockwiseRun epi_s_in_blocks(const LightField& lf, const EpiSParameters& parameters,
                              ViewSelection views, const Progress& progress) {
   BlockwiseRun run = orientations_in_blocks(lf, parameters.tensor, views, progress);
@@ -136,6 +111,33 @@ BlockwiseRun epi_s_in_blocks(const LightField& lf, const EpiSParameters& paramet
     return std::vector<std::string>{gap_note(end.finding)};
   };
   return run;
+}
+
+Schema<EpiSParameters> epi_s_schema() {
+  return Schema<EpiSParameters>()
+      .part(&EpiSParameters::denoising, denoise_schema())
+      .part(&EpiSParameters::line_check, line_check_schema())
+      .part(&EpiSParameters::tensor, epi_l_schema())
+      .begin_with(kProfileKey)
+      .preset(kProfileKey, kPaperProfile, plain_denoising())
+      .preset(kProfileKey, kPaperProfile,
+              {{"lambda", 0.2}, {"choose_sides", false}, {"check_lines", false}})
+      .preset_search(kProfileKey, kPaperProfile, "lambda", {0.02, 0.05, 0.1, 0.2, 0.4, 0.8})
+      .search("lambda", {0.05, 0.1, 0.2, 0.4, 0.8})
+      .search("weight_power", {0, 2, 4, 8})
+      .search("edge_strength", {0, 15, 30});
+}
+
+}  // namespace
+
+Estimate estimate_epi_s(const LightField& lf, const EpiSParameters& parameters, ViewSelection views,
+                        const Progress& progress, Device device) {
+  if (device == Device::Cuda) return estimate_on_gpu(lf, parameters, views, progress);
+  Estimate estimate = estimate_orientations(lf, parameters.tensor, views, progress.part(0, 0.4));
+  check_lines(lf, parameters.line_check, estimate, progress.part(0.4, 0.5));
+  denoise(lf, parameters.denoising, estimate, progress.part(0.5, 0.98), least_weight(parameters));
+  clamp_to_range(estimate.field.disparity, estimate.range, progress.part(0.98, 1));
+  return estimate;
 }
 
 Estimator epi_s_estimator() {

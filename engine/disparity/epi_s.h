@@ -7,14 +7,11 @@
 
 namespace episcope {
 
-/// Parameters of EPI_S.
 struct EpiSParameters {
   DenoiseParameters denoising{.lambda = 0.1, .weight_power = 4, .edge_strength = 15};
   LineCheck line_check = {};
   EpiLParameters tensor{.cross_scale = kCrossScaleOfDenoised};
 };
-
-[[nodiscard]] Schema<EpiSParameters> epi_s_schema();
 
 /// EPI_S: EPI_L, denoised view by view (engine/disparity/denoise.h) with its coherence as
 /// confidence. Before, unless `choose_sides` is off, pixels near a jump take the side whose lines
@@ -31,12 +28,6 @@ struct EpiSParameters {
 [[nodiscard]] Estimate estimate_epi_s(const LightField& light_field,
                                       const EpiSParameters& parameters, ViewSelection views,
                                       const Progress& progress, Device device = Device::Cpu);
-
-/// Runs EPI_S block by block: orientations in bands of rows, then single views, each of which needs
-/// up to 16 others.
-[[nodiscard]] BlockwiseRun epi_s_in_blocks(const LightField& light_field,
-                                           const EpiSParameters& parameters, ViewSelection views,
-                                           const Progress& progress);
 
 [[nodiscard]] Estimator epi_s_estimator();
 

@@ -369,8 +369,6 @@ Schema<EpiTwoLayerParameters> layers_schema() {
             {0, 100});
 }
 
-}  // namespace
-
 Schema<EpiTwoLayerParameters> epi_two_layer_schema() {
   using P = EpiTwoLayerParameters;
   return layers_schema()
@@ -395,6 +393,8 @@ Schema<EpiTwoLayerParameters> epi_two_layer_schema() {
       .search("weight_power", {2, 6})
       .search("decision", {0.1, 0.15, 0.25});
 }
+
+}  // namespace
 
 Estimate estimate_epi_two_layer(const LightField& lf, const EpiTwoLayerParameters& parameters,
                                 ViewSelection views, const Progress& progress, Device device) {

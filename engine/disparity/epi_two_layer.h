@@ -5,11 +5,6 @@
 #include "engine/disparity/epi_l.h"
 #include "engine/disparity/line_check.h"
 
-#include <cstddef>
-#include <cstdint>
-#include <string>
-#include <vector>
-
 namespace episcope {
 
 /// Parameters of EPI_TWO_LAYER: the two layers and their denoising, and the parameters of EPI_L for
@@ -29,8 +24,6 @@ struct EpiTwoLayerParameters {
   LineCheck line_check = {};
   EpiLParameters tensor{.cross_scale = kCrossScaleOfDenoised};
 };
-
-[[nodiscard]] Schema<EpiTwoLayerParameters> epi_two_layer_schema();
 
 /// EPI_TWO_LAYER: a transparent or reflective surface and the background seen through it.
 ///

@@ -41,7 +41,6 @@ struct Placement {
   float weight = 0;     ///< In [0, 1].
 };
 
-/// Placements of all pixels.
 struct Placements {
   Image<float> disparity, weight;
 };

@@ -357,8 +357,6 @@ Schema<Matching> matching_schema() {
            "pixels, at least 30; quarter: the mean of what a quarter of the labels fall below"});
 }
 
-}  // namespace
-
 Schema<Kz02Parameters> kz02_schema() {
   using P = Kz02Parameters;
   return Schema<P>()
@@ -396,6 +394,8 @@ Schema<Kz02Parameters> kz02_schema() {
                {"refinement", std::string("none")},
                {"smoothness", kPublishedSmoothness}});
 }
+
+}  // namespace
 
 Estimate estimate_kz02(const LightField& lf, const Kz02Parameters& parameters,
                        const Progress& progress) {

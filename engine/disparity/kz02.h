@@ -90,8 +90,6 @@ struct Kz02Parameters {
   ViewOrAuto view;
 };
 
-[[nodiscard]] Schema<Kz02Parameters> kz02_schema();
-
 /// KZ02: multi-camera scene reconstruction via graph cuts. Labels of one view and of up to four
 /// side views, left, right, above and below it, are found together: pixels of two views that have
 /// the label at which both see the same point gain by it the more they look alike, neighbors of a

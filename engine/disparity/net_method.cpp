@@ -197,12 +197,6 @@ BlockwiseRun net_in_blocks(const LightField& lf, const NetMethodParameters& para
   return run;
 }
 
-}  // namespace
-
-Names<Silhouettes> names_of(Silhouettes) {
-  return {{Silhouettes::Mode, "mode"}, {Silhouettes::Mean, "mean"}};
-}
-
 Schema<NetMethodParameters> net_schema() {
   using P = NetMethodParameters;
   return Schema<P>()
@@ -225,6 +219,12 @@ Schema<NetMethodParameters> net_schema() {
       .text("weights", &P::weights,
             {"Weights", "File of the network's weights; by default those of the program"})
       .search("rounds", {1, 2});
+}
+
+}  // namespace
+
+Names<Silhouettes> names_of(Silhouettes) {
+  return {{Silhouettes::Mode, "mode"}, {Silhouettes::Mean, "mean"}};
 }
 
 Estimate estimate_by_net(const LightField& lf, const NetMethodParameters& parameters,

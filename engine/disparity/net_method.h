@@ -20,7 +20,6 @@ struct NetMethodParameters {
   IntervalOrAuto range{};
   ViewOrAuto view{};
 };
-[[nodiscard]] Schema<NetMethodParameters> net_schema();
 
 /// The file of the released weights (installed_weights).
 inline constexpr const char* kNetWeights = "net.npz";

@@ -5,7 +5,6 @@
 #include "engine/disparity/weights_file.h"
 
 #include <array>
-#include <cstddef>
 #include <map>
 #include <string>
 #include <vector>

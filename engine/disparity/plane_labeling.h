@@ -20,7 +20,6 @@ struct PlaneRefinementParameters {
 };
 [[nodiscard]] Schema<PlaneRefinementParameters> plane_refinement_schema();
 
-/// The data of one view.
 struct PlaneRefinementData {
   const LabelCosts& costs;       ///< Where they are, all is computed.
   ImageView<const float> edges;  ///< Weights of the variation, `[y][x]`.

@@ -246,7 +246,6 @@ PhotometricCorrection correction_of_points(const LightField& lf, ViewIndex refer
 
 namespace {
 
-// Disparity and confidence of one view.
 struct MapOfView {
   ImageView<const float> disparity, confidence;
 };
@@ -474,8 +473,6 @@ BlockwiseRun planes_in_blocks(const LightField& lf, const PlaneParameters& param
                            views, progress.threads());
 }
 
-}  // namespace
-
 Schema<PlaneParameters> plane_pm_schema() {
   using P = PlaneParameters;
   return Schema<P>()
@@ -494,6 +491,8 @@ Schema<PlaneParameters> plane_pm_schema() {
       .search("smoothness", {0.75, 1.5, 3})
       .search("rounds", {0, 1, 2});
 }
+
+}  // namespace
 
 Estimate estimate_planes(const LightField& lf, const PlaneParameters& parameters,
                          ViewSelection views, const Progress& progress, Device device) {

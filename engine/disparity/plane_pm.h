@@ -33,7 +33,6 @@ struct PlaneParameters {
   bool silhouettes = true;
   IslandParameters islands = {};
 };
-[[nodiscard]] Schema<PlaneParameters> plane_pm_schema();
 
 /// Disparity from all views in which a point is visible.
 ///

@@ -107,65 +107,7 @@ double costs_bytes(const LightField& lf, const StereoCosts& costs, int rows, int
          looked_at_bytes(lf, costs, rows);
 }
 
-}  // namespace
-
-Schema<StereoLocalParameters> stereo_local_schema(MatchedViews views) {
-  using P = StereoLocalParameters;
-  return Schema<P>()
-      .part(&P::matching, stereo_cost_schema(views))
-      .choice("refinement", &P::refinement,
-              {"Refinement", "How the disparity is interpolated between labels"})
-      .begin_with(kProfileKey)
-      .search("epsilon", {0, 0.01, 0.02, 0.05, 0.1, kUncapped})
-      .search("aggregation", {0, 2})
-      .preset(kProfileKey, kPaperProfile, {{"refinement", std::string("none")}});
-}
-
-Schema<StereoSmoothParameters> stereo_smooth_schema(MatchedViews views) {
-  using P = StereoSmoothParameters;
-  // Fewer caps than for the local methods: smoothing removes the noise that they leave.
-  return Schema<P>()
-      .part(&P::denoising, denoise_schema())
-      .real(
-          "map_noise", &P::map_noise,
-          {"Map noise σ₀",
-           "Where neighboring disparities scatter less than this, in px, the data term gets more "
-           "weight, so that slopes are not flattened; 0 treats all pixels alike, as in the paper"},
-          {0, 1})
-      .part(&P::islands, island_schema())
-      .part(&P::local, stereo_local_schema(views))
-      .begin_with(kProfileKey)
-      .search("lambda", {0.02, 0.05, 0.1, 0.2, 0.4})
-      .search("weight_power", {0, 2})
-      .search("epsilon", {0, 0.02, kUncapped})
-      .search("aggregation", {0, 2})
-      .preset(kProfileKey, kPaperProfile, plain_denoising())
-      .preset(kProfileKey, kPaperProfile, plain_islands())
-      .preset(kProfileKey, kPaperProfile, {{"lambda", 0.2}, {"map_noise", 0.0}})
-      .preset_search(kProfileKey, kPaperProfile, "lambda", {0.02, 0.05, 0.1, 0.2, 0.4, 0.8});
-}
-
-Estimate estimate_stereo_local(const LightField& lf, MatchedViews views,
-                               const StereoLocalParameters& parameters, const Progress& progress,
-                               Device device) {
-  const StereoCosts costs =
-      prepare_stereo(lf, views, parameters.matching, progress.part(0, 0.1), device);
-  Estimate estimate;
-  estimate.range = costs.range;
-  if (costs.matcher) {
-    estimate.field.disparity = ViewStack<float>({1, 1}, lf.height(), lf.width(), 1, costs.view);
-    estimate.confidence = ViewStack<float>({1, 1}, lf.height(), lf.width(), 1, costs.view);
-    choose_on_device(lf, costs, parameters.refinement, estimate, progress.part(0.1, 1));
-  } else {
-    BlockMaps maps = choose_labels(lf, costs, parameters.refinement,
-                                   {{costs.view, {1, 1}}, 0, lf.height()}, progress.part(0.1, 1));
-    estimate.field = std::move(maps.field);
-    estimate.confidence = std::move(maps.confidence);
-  }
-  estimate.notes = cost_notes(costs);
-  return estimate;
-}
-
+// Runs the local method block by block: bands of rows, under costs that were prepared for all.
 BlockwiseRun stereo_local_in_blocks(const LightField& lf, MatchedViews views,
                                     const StereoLocalParameters& parameters,
                                     const Progress& progress) {
@@ -192,18 +134,21 @@ BlockwiseRun stereo_local_in_blocks(const LightField& lf, MatchedViews views,
   return run;
 }
 
-Estimate estimate_stereo_smooth(const LightField& lf, MatchedViews views,
-                                const StereoSmoothParameters& parameters, const Progress& progress,
-                                Device device) {
-  Estimate estimate =
-      estimate_stereo_local(lf, views, parameters.local, progress.part(0, 0.85), device);
-  denoise(lf, parameters.denoising, estimate, progress.part(0.85, 1), DataWeight{}.minimum,
-          static_cast<float>(parameters.map_noise), device);
-  ViewStack<float>& maps = estimate.field.disparity;
-  fill_islands(parameters.islands, progress.part(1, 1), maps.view(maps.first()));
-  return estimate;
+// The profile `paper` has no refinement, weights neither data nor variation, and leaves islands; λ
+// = 0.2.
+Schema<StereoLocalParameters> stereo_local_schema(MatchedViews views) {
+  using P = StereoLocalParameters;
+  return Schema<P>()
+      .part(&P::matching, stereo_cost_schema(views))
+      .choice("refinement", &P::refinement,
+              {"Refinement", "How the disparity is interpolated between labels"})
+      .begin_with(kProfileKey)
+      .search("epsilon", {0, 0.01, 0.02, 0.05, 0.1, kUncapped})
+      .search("aggregation", {0, 2})
+      .preset(kProfileKey, kPaperProfile, {{"refinement", std::string("none")}});
 }
 
+// Runs the denoised method in blocks: bands of rows, then the view is denoised as a whole.
 BlockwiseRun stereo_smooth_in_blocks(const LightField& lf, MatchedViews views,
                                      const StereoSmoothParameters& parameters,
                                      const Progress& progress) {
@@ -234,6 +179,65 @@ BlockwiseRun stereo_smooth_in_blocks(const LightField& lf, MatchedViews views,
     return notes;
   };
   return run;
+}
+
+Schema<StereoSmoothParameters> stereo_smooth_schema(MatchedViews views) {
+  using P = StereoSmoothParameters;
+  // Fewer caps than for the local methods: smoothing removes the noise that they leave.
+  return Schema<P>()
+      .part(&P::denoising, denoise_schema())
+      .real(
+          "map_noise", &P::map_noise,
+          {"Map noise σ₀",
+           "Where neighboring disparities scatter less than this, in px, the data term gets more "
+           "weight, so that slopes are not flattened; 0 treats all pixels alike, as in the paper"},
+          {0, 1})
+      .part(&P::islands, island_schema())
+      .part(&P::local, stereo_local_schema(views))
+      .begin_with(kProfileKey)
+      .search("lambda", {0.02, 0.05, 0.1, 0.2, 0.4})
+      .search("weight_power", {0, 2})
+      .search("epsilon", {0, 0.02, kUncapped})
+      .search("aggregation", {0, 2})
+      .preset(kProfileKey, kPaperProfile, plain_denoising())
+      .preset(kProfileKey, kPaperProfile, plain_islands())
+      .preset(kProfileKey, kPaperProfile, {{"lambda", 0.2}, {"map_noise", 0.0}})
+      .preset_search(kProfileKey, kPaperProfile, "lambda", {0.02, 0.05, 0.1, 0.2, 0.4, 0.8});
+}
+
+}  // namespace
+
+Estimate estimate_stereo_local(const LightField& lf, MatchedViews views,
+                               const StereoLocalParameters& parameters, const Progress& progress,
+                               Device device) {
+  const StereoCosts costs =
+      prepare_stereo(lf, views, parameters.matching, progress.part(0, 0.1), device);
+  Estimate estimate;
+  estimate.range = costs.range;
+  if (costs.matcher) {
+    estimate.field.disparity = ViewStack<float>({1, 1}, lf.height(), lf.width(), 1, costs.view);
+    estimate.confidence = ViewStack<float>({1, 1}, lf.height(), lf.width(), 1, costs.view);
+    choose_on_device(lf, costs, parameters.refinement, estimate, progress.part(0.1, 1));
+  } else {
+    BlockMaps maps = choose_labels(lf, costs, parameters.refinement,
+                                   {{costs.view, {1, 1}}, 0, lf.height()}, progress.part(0.1, 1));
+    estimate.field = std::move(maps.field);
+    estimate.confidence = std::move(maps.confidence);
+  }
+  estimate.notes = cost_notes(costs);
+  return estimate;
+}
+
+Estimate estimate_stereo_smooth(const LightField& lf, MatchedViews views,
+                                const StereoSmoothParameters& parameters, const Progress& progress,
+                                Device device) {
+  Estimate estimate =
+      estimate_stereo_local(lf, views, parameters.local, progress.part(0, 0.85), device);
+  denoise(lf, parameters.denoising, estimate, progress.part(0.85, 1), DataWeight{}.minimum,
+          static_cast<float>(parameters.map_noise), device);
+  ViewStack<float>& maps = estimate.field.disparity;
+  fill_islands(parameters.islands, progress.part(1, 1), maps.view(maps.first()));
+  return estimate;
 }
 
 Schema<StereoGlobalParameters> stereo_global_schema(MatchedViews views) {

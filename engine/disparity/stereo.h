@@ -22,11 +22,6 @@ struct StereoSmoothParameters {
   StereoLocalParameters local = {};
 };
 
-/// The profile `paper` has no refinement, weights neither data nor variation, and leaves islands; λ
-/// = 0.2.
-[[nodiscard]] Schema<StereoLocalParameters> stereo_local_schema(MatchedViews views);
-[[nodiscard]] Schema<StereoSmoothParameters> stereo_smooth_schema(MatchedViews views);
-
 /// The label of the least cost at every pixel of one view, moved between labels by `refinement`:
 /// none, a parabola through the costs of the label and its neighbors, or two lines of equal slope
 /// (equiangular), by half a label at most. Costs are computed band by band and never held.
@@ -38,23 +33,12 @@ struct StereoSmoothParameters {
                                              const StereoLocalParameters& parameters,
                                              const Progress& progress, Device device = Device::Cpu);
 
-/// Runs the local method block by block: bands of rows, under costs that were prepared for all.
-[[nodiscard]] BlockwiseRun stereo_local_in_blocks(const LightField& light_field, MatchedViews views,
-                                                  const StereoLocalParameters& parameters,
-                                                  const Progress& progress);
-
 /// The local method, denoised (engine/disparity/denoise.h) and without islands
 /// (engine/disparity/denoise.h); the duality gap is in the notes.
 [[nodiscard]] Estimate estimate_stereo_smooth(const LightField& light_field, MatchedViews views,
                                               const StereoSmoothParameters& parameters,
                                               const Progress& progress,
                                               Device device = Device::Cpu);
-
-/// Runs the denoised method in blocks: bands of rows, then the view is denoised as a whole.
-[[nodiscard]] BlockwiseRun stereo_smooth_in_blocks(const LightField& light_field,
-                                                   MatchedViews views,
-                                                   const StereoSmoothParameters& parameters,
-                                                   const Progress& progress);
 
 /// λ under the profile `paper`.
 inline constexpr double kPaperSmoothness = 0.6;

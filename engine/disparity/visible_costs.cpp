@@ -292,6 +292,11 @@ int nearest_label(const StereoCosts& stereo, float disparity) {
   return std::clamp(static_cast<int>(place + 0.5F), 0, static_cast<int>(stereo.labels.size()) - 1);
 }
 
+// 1 − cost / mean cost, in [0, 1]; 0 without costs.
+float cost_trust(float cost, float mean) {
+  return mean > 0 ? std::clamp(1 - cost / mean, 0.0F, 1.0F) : 0;
+}
+
 }  // namespace
 
 Image<float> mean_costs(VolumeView<const float> costs, const Progress& progress) {
@@ -305,10 +310,6 @@ Image<float> mean_costs(VolumeView<const float> costs, const Progress& progress)
     for (int x = 0; x < costs.width; ++x) mean[x] /= static_cast<float>(costs.layers);
   });
   return means;
-}
-
-float cost_trust(float cost, float mean) {
-  return mean > 0 ? std::clamp(1 - cost / mean, 0.0F, 1.0F) : 0;
 }
 
 Placement place_by_costs(const StereoCosts& stereo, VolumeView<const float> costs,

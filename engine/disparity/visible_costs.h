@@ -119,9 +119,6 @@ void set_occluders(const LightField& light_field, ImageView<const float> dispari
 [[nodiscard]] double mean_of_valid(const Image<float>& image, const LightField& light_field,
                                    ViewIndex view);
 
-/// 1 − cost / mean cost, in [0, 1]; 0 without costs.
-[[nodiscard]] float cost_trust(float cost, float mean);
-
 /// Places a pixel of a label at the parabola through its cost and the costs of the labels beside
 /// it, with the square of its trust as weight, at least 0.01.
 [[nodiscard]] Placement place_by_costs(const StereoCosts& stereo, VolumeView<const float> costs,

@@ -15,6 +15,12 @@ namespace {
 
 using Scores = std::vector<std::optional<double>>;
 
+// Whether an entry has any score.
+bool has_score(const Scores& scores) {
+  return std::any_of(scores.begin(), scores.end(),
+                     [](const auto& score) { return score.has_value(); });
+}
+
 void divide_scenes(const ScoreMatrix& matrix, Ranking& ranking) {
   for (std::size_t scene = 0; scene < matrix.scenes.size(); ++scene) {
     bool is_scored = false;
@@ -35,11 +41,6 @@ std::optional<double> average(const Scores& scores, const std::vector<std::size_
 }
 
 }  // namespace
-
-bool has_score(const Scores& scores) {
-  return std::any_of(scores.begin(), scores.end(),
-                     [](const auto& score) { return score.has_value(); });
-}
 
 Ranking rank_entries(const ScoreMatrix& matrix, int digits) {
   Ranking ranking;

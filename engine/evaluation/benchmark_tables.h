@@ -70,9 +70,6 @@ struct Ranking {
   std::vector<std::size_t> order;               ///< Entries, best first, those not ranked last.
 };
 
-/// Whether an entry has any score.
-[[nodiscard]] bool has_score(const std::vector<std::optional<double>>& scores);
-
 /// Ranks by the average over the scenes that all ranked entries have, so that omitting a hard scene
 /// is no advantage. Entries without any score are not ranked; a scene without any score is neither
 /// averaged nor missing. Averages that agree when rounded to `digits` share the better rank, the

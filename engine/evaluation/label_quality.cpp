@@ -193,8 +193,8 @@ Image<T> over_windows(ImageView<const T> image, int radius, const Combine& combi
   return along(rows.view(), false);
 }
 
-}  // namespace
-
+// 1 where a pixel of another label lies in the square of 2·radius + 1 px around the pixel,
+// `[y][x]`.
 Image<std::uint8_t> near_boundaries(ImageView<const std::int32_t> labels, int radius) {
   const auto least = over_windows(labels, radius, [](auto a, auto b) { return std::min(a, b); });
   const auto most = over_windows(labels, radius, [](auto a, auto b) { return std::max(a, b); });
@@ -204,12 +204,16 @@ Image<std::uint8_t> near_boundaries(ImageView<const std::int32_t> labels, int ra
   return near;
 }
 
+// 1 where the pixel lies in no square of kThinWidth_px + 1 px of its label alone, `[y][x]`: what a
+// morphological opening of the label removes. Squares end at the border of the image.
 Image<std::uint8_t> thin_parts(ImageView<const std::int32_t> labels) {
   // A square without a boundary covers all of its pixels.
   const Image<std::uint8_t> mixed = near_boundaries(labels, kThinWidth_px / 2);
   const ImageView<const std::uint8_t> view = mixed.view();
   return over_windows(view, kThinWidth_px / 2, [](auto a, auto b) { return std::min(a, b); });
 }
+
+}  // namespace
 
 std::optional<double> LabelQuality::thin_overlap() const {
   double sum = 0;

@@ -66,14 +66,6 @@ inline constexpr int kBoundaryBand_px = 3;
 /// Up to how many px something is thin.
 inline constexpr int kThinWidth_px = 4;
 
-/// 1 where a pixel of another label lies in the square of 2·radius + 1 px around the pixel,
-/// `[y][x]`.
-[[nodiscard]] Image<std::uint8_t> near_boundaries(ImageView<const std::int32_t> labels, int radius);
-
-/// 1 where the pixel lies in no square of kThinWidth_px + 1 px of its label alone, `[y][x]`: what a
-/// morphological opening of the label removes. Squares end at the border of the image.
-[[nodiscard]] Image<std::uint8_t> thin_parts(ImageView<const std::int32_t> labels);
-
 /// Scores of labels that a single share of correct pixels hides.
 struct LabelQuality {
   LabelAccuracy all;         ///< Of every pixel with a true label,

@@ -102,7 +102,6 @@ std::optional<double> ResolvedErrors::percentage(const Image<std::uint8_t>* mask
   return 100.0 * static_cast<double>(bad) / static_cast<double>(count);
 }
 
-/// Scores of a part of a view.
 struct PartScore {
   std::size_t pixels = 0;  ///< That were judged.
   Metrics metrics;         ///< Empty without such pixels.

@@ -50,16 +50,8 @@ constexpr FormWithoutMark kWithoutMark[] = {
     {".nef", kDevelop}, {".cr2", kDevelop}, {".cr3", kDevelop}, {".arw", kDevelop},
     {".raf", kDevelop}, {".orf", kDevelop}, {".rw2", kDevelop}};
 
-}  // namespace
-
-std::span<const Reader> readers() {
-  static const Reader kReaders[] = {blender_reader(), sequence_reader(),  frames_reader(),
-                                    mosaic_reader(),  matlab_reader(),    hdf5_array_reader(),
-                                    numpy_reader(),   archive_reader(),   benchmark_reader(),
-                                    excerpt_reader(), image_grid_reader()};
-  return kReaders;
-}
-
+// Advice on a file whose content is of no form that is read (foreign_content.h), or whose suffix
+// names a form that its bytes do not tell. The end of a sentence; empty for other files.
 std::string advice_on(const fs::path& path) {
   const std::string content = foreign_content(path);
   if (!content.empty()) return content;
@@ -67,6 +59,8 @@ std::string advice_on(const fs::path& path) {
   return known == std::end(kWithoutMark) ? std::string() : known->advice;
 }
 
+// Advice on a folder without a light field, by its first file of an unsupported format or GIF
+// picture, with its name. Empty if there is none. Throws std::filesystem::filesystem_error.
 std::string advice_on_folder(const fs::path& folder) {
   constexpr std::string_view kPicture = ".gif";
   std::string first;
@@ -78,6 +72,16 @@ std::string advice_on_folder(const fs::path& folder) {
     first = name + ": " + advice;
   }
   return first;
+}
+
+}  // namespace
+
+std::span<const Reader> readers() {
+  static const Reader kReaders[] = {blender_reader(), sequence_reader(),  frames_reader(),
+                                    mosaic_reader(),  matlab_reader(),    hdf5_array_reader(),
+                                    numpy_reader(),   archive_reader(),   benchmark_reader(),
+                                    excerpt_reader(), image_grid_reader()};
+  return kReaders;
 }
 
 namespace {

@@ -17,12 +17,4 @@ namespace episcope::io {
 [[nodiscard]] Scene open_scene(const std::filesystem::path& path, const OpenOptions& options,
                                const Progress& progress);
 
-/// Advice on a file whose content is of no form that is read (foreign_content.h), or whose suffix
-/// names a form that its bytes do not tell. The end of a sentence; empty for other files.
-[[nodiscard]] std::string advice_on(const std::filesystem::path& path);
-
-/// Advice on a folder without a light field, by its first file of an unsupported format or GIF
-/// picture, with its name. Empty if there is none. Throws std::filesystem::filesystem_error.
-[[nodiscard]] std::string advice_on_folder(const std::filesystem::path& folder);
-
 }  // namespace episcope::io

@@ -83,7 +83,6 @@ struct LabelPiece {
 [[nodiscard]] std::vector<LabelPiece> pieces_of(ImageView<const std::int32_t> labels,
                                                 std::int32_t label);
 
-/// Values of the pixels of a mask.
 struct MaskValues {
   std::uint8_t of_label = 255;
   std::uint8_t of_others = 0;

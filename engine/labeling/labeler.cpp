@@ -85,6 +85,11 @@ struct Learned {
   const Forest& forest;
 };
 
+// Whether the set of features includes disparity.
+bool uses_disparity(const LabelerParameters& parameters) {
+  return parameters.features != FeatureSet::Image;
+}
+
 }  // namespace
 
 struct Labeler::State {
@@ -626,10 +631,6 @@ Schema<LabelerParameters> labeler_schema() {
       .integer("depth", &LabelerParameters::depth, {"Depth", "Maximum depth of a tree"}, {1, 25})
       .integer("seed", &LabelerParameters::seed,
                {"Seed", "Seed of the random numbers used to train the forest"}, {0, 1000000});
-}
-
-bool uses_disparity(const LabelerParameters& parameters) {
-  return parameters.features != FeatureSet::Image;
 }
 
 }  // namespace episcope

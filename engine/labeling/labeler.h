@@ -16,7 +16,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace episcope {
 
@@ -37,9 +36,6 @@ struct LabelerParameters {
 };
 
 [[nodiscard]] Schema<LabelerParameters> labeler_schema();
-
-/// Whether the set of features includes disparity.
-[[nodiscard]] bool uses_disparity(const LabelerParameters& parameters);
 
 /// A segmentation of a rectangle of views.
 struct Labeling {

@@ -96,6 +96,14 @@ class LayerWriter {
   int layer_;
 };
 
+// Repeats samples of one channel three times; returns three channels unchanged.
+cv::Mat rgb_colors(const cv::Mat& samples) {
+  if (samples.channels() == 3) return samples;
+  cv::Mat rgb;
+  cv::cvtColor(samples, rgb, cv::COLOR_GRAY2RGB);
+  return rgb;
+}
+
 cv::Mat color_image(const LightField& lf, ViewIndex view) {
   Image<float> samples = lf.view_as_float(view);
   const cv::Mat wrapped(lf.height(), lf.width(), CV_32FC(lf.channels()), samples.data());
@@ -291,13 +299,6 @@ DisparitySlopes disparity_slopes(ImageView<const float> disparity) {
     slopes_down(disparity, y, slopes.y.row(y));
   }
   return slopes;
-}
-
-cv::Mat rgb_colors(const cv::Mat& samples) {
-  if (samples.channels() == 3) return samples;
-  cv::Mat rgb;
-  cv::cvtColor(samples, rgb, cv::COLOR_GRAY2RGB);
-  return rgb;
 }
 
 cv::Mat lab_colors(const cv::Mat& samples) {

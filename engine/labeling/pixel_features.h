@@ -82,9 +82,6 @@ struct DisparitySlopes {
 /// floats; three channels of the same size.
 [[nodiscard]] cv::Mat lab_colors(const cv::Mat& samples);
 
-/// Repeats samples of one channel three times; returns three channels unchanged.
-[[nodiscard]] cv::Mat rgb_colors(const cv::Mat& samples);
-
 /// Three channels of color, `[y][x]` each.
 using ColorPlanes = std::array<Image<float>, 3>;
 

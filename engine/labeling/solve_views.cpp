@@ -25,17 +25,6 @@ constexpr int kGapCheckEvery = 5;
 // Iterations for which far labels are left out at first, and when a kept solver continues.
 constexpr int kRacingIterations = 25, kRacingWhenGoingOn = 10;
 
-}  // namespace
-
-SimplexOptions simplex_options(const RayLabelingParameters& parameters, double gap) {
-  SimplexOptions options;
-  options.gap = gap;
-  options.max_iterations = parameters.max_iterations;
-  options.check_every = kGapCheckEvery;
-  options.racing_iterations = kRacingIterations;
-  return options;
-}
-
 std::vector<ViewChain> view_chains(GridShape grid) {
   std::vector<ViewChain> chains;
   for (int v = 0; v < grid.v; ++v) {
@@ -47,6 +36,17 @@ std::vector<ViewChain> view_chains(GridShape grid) {
     }
   }
   return chains;
+}
+
+}  // namespace
+
+SimplexOptions simplex_options(const RayLabelingParameters& parameters, double gap) {
+  SimplexOptions options;
+  options.gap = gap;
+  options.max_iterations = parameters.max_iterations;
+  options.check_every = kGapCheckEvery;
+  options.racing_iterations = kRacingIterations;
+  return options;
 }
 
 RayLabeling solve_views(const ViewProblems& problems, const Progress& progress) {

@@ -102,7 +102,6 @@ class ViewProblem {
 struct ViewChain {
   int begin = 0, end = 0;
 };
-[[nodiscard]] std::vector<ViewChain> view_chains(GridShape grid);
 
 /// The separate problems of the views, and how the costs of a view get into its problem. Borrows
 /// the input and the parameters.
@@ -123,7 +122,6 @@ struct ViewProblems {
 [[nodiscard]] RayLabeling solve_view(const ViewProblems& problems, ViewIndex view,
                                      const Progress& progress);
 
-/// Replaces layers by their ids.
 void replace_layers_by_ids(const std::vector<std::int32_t>& ids, RayLabeling& labeling);
 
 /// Work of the GPU for all views besides solving the problem of each.

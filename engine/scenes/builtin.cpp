@@ -75,6 +75,26 @@ void check(const RenderOptions& options) {
   }
 }
 
+// The camera grid of a stage: eq. 1 with every disparity times `disparity_scale`.
+CameraGrid camera_grid_of(const Stage& stage, double disparity_scale) {
+  const double side = std::max(stage.width, stage.height);
+  CameraGrid camera;
+  camera.baseline = stage.parallax * disparity_scale / stage.focal_px * side;  // eq. 2: b · xRes
+  camera.focal_length = stage.focal_px / side;
+  camera.shift = stage.parallax * disparity_scale / stage.zero_depth;
+  camera.cam_distance = stage.zero_depth;
+  return camera;
+}
+
+// Throws Unavailable for an unknown scene, naming the nearest and all.
+void require_builtin(const std::string& id) {
+  std::vector<std::string> ids;
+  for (const BuiltinSceneInfo& scene : builtin_scenes()) ids.push_back(scene.id);
+  if (std::ranges::find(ids, id) != ids.end()) return;
+  throw Unavailable(no_such_name("built-in scene", id, ids) + " (there are " + joined(ids, ", ") +
+                    ")");
+}
+
 }  // namespace
 
 std::span<const Recipe> recipes() {
@@ -106,14 +126,6 @@ std::vector<BuiltinSceneInfo> builtin_scenes() {
 
 bool is_drawn(const std::string& id) {
   return id == kRandomScene || find_stratified(id) != nullptr;
-}
-
-void require_builtin(const std::string& id) {
-  std::vector<std::string> ids;
-  for (const BuiltinSceneInfo& scene : builtin_scenes()) ids.push_back(scene.id);
-  if (std::ranges::find(ids, id) != ids.end()) return;
-  throw Unavailable(no_such_name("built-in scene", id, ids) + " (there are " + joined(ids, ", ") +
-                    ")");
 }
 
 std::string builtin_name(const std::string& id, const RenderOptions& options) {
@@ -465,16 +477,6 @@ class ViewsCast {
 };
 
 }  // namespace
-
-CameraGrid camera_grid_of(const Stage& stage, double disparity_scale) {
-  const double side = std::max(stage.width, stage.height);
-  CameraGrid camera;
-  camera.baseline = stage.parallax * disparity_scale / stage.focal_px * side;  // eq. 2: b · xRes
-  camera.focal_length = stage.focal_px / side;
-  camera.shift = stage.parallax * disparity_scale / stage.zero_depth;
-  camera.cam_distance = stage.zero_depth;
-  return camera;
-}
 
 Cast cast_views(const Stage& stage, const Model& model, const RenderOptions& options,
                 const Progress& progress) {

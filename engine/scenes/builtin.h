@@ -47,9 +47,6 @@ inline constexpr const char* kBuiltinReader = "builtin";
 /// Whether the seed decides how the scene looks: the random one and the stratified ones.
 [[nodiscard]] bool is_drawn(const std::string& id);
 
-/// Throws Unavailable for an unknown scene, naming the nearest and all.
-void require_builtin(const std::string& id);
-
 /// Name for lists and files: the id; of a scene that is drawn with its seed, of a random one with
 /// its kind as well ("dots_3", "random_thin_7").
 [[nodiscard]] std::string builtin_name(const std::string& id, const RenderOptions& options);
@@ -88,9 +85,6 @@ struct BuiltinRequest {
 /// Reads the part of such a text behind the '?' into the options of `request`; others stay. Throws
 /// InvalidInput likewise.
 void read_options(const std::string& text, BuiltinRequest& request);
-
-/// The camera grid of a stage: eq. 1 with every disparity times `disparity_scale`.
-[[nodiscard]] CameraGrid camera_grid_of(const Stage& stage, double disparity_scale);
 
 /// Samples and truth of every view. `info` and scribbles are left to the caller.
 struct Cast {

@@ -246,16 +246,8 @@ Rotation draw_axes(Form form, bool stands, Draw& draw) {
 
 /// Whether an object of this form can stand on the ground.
 bool can_stand(Form form) {
-  switch (form) {
-    case Form::Disc:
-    case Form::Panel:
-    case Form::Bar:
-    case Form::Lattice:
-    case Form::Leaf:
-      return false;
-    default:
-      return true;
-  }
+  return form != Form::Disc && form != Form::Panel && form != Form::Bar && form != Form::Lattice &&
+         form != Form::Leaf;
 }
 
 /// Moves a primitive away by `factor` and enlarges it as much: the same picture from the center

@@ -20,7 +20,6 @@ Image<std::uint8_t> region_where(CenterLabels labels, IsInside is_inside) {
   return mask;
 }
 
-/// The pixels of one label.
 [[nodiscard]] inline Image<std::uint8_t> region_of(CenterLabels labels, int label) {
   return region_where(labels, [&](int y, int x) { return labels.at(y, x) == label; });
 }

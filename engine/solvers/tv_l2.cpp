@@ -70,6 +70,38 @@ void stretch_faces(const float* cells, const TvL2Level& fine, float* out) {
   for (int cell = 1; cell < evens; ++cell) out[cell] = 0.5F * (cells[cell] + cells[cell - 1]);
 }
 
+// Data term and weights of a coarser image such that minimizing there approximates minimizing on
+// `fine`: cells of 2×2, whose variation counts their side of 2 pixels.
+void coarsen_problem(const TvL2Level& fine, const TvL2Level& coarse) {
+  for (int y = 0; y < coarse.height; ++y) {
+    const long below = 2 * y + 1 < fine.height ? fine.pitch : 0;
+    for (int x = 0; x < coarse.width; ++x) {
+      const long i = fine.at(2 * y, 2 * x);
+      // Cells at an odd border count their pixels twice.
+      const long right = 2 * x + 1 < fine.width ? fine.odd : 0;
+      const auto sum = [=](const float* plane) {
+        return plane[i] + plane[i + right] + plane[i + below] + plane[i + below + right];
+      };
+      const long to = coarse.at(y, x);
+      coarse.c[to] = 0.5F * sum(fine.c);
+      coarse.cf[to] = 0.5F * sum(fine.cf);
+      coarse.g[to] = 0.25F * sum(fine.g);
+    }
+  }
+}
+
+// u = f, z = p = 0, rx and ry as `prolong`.
+void start_from_data(const TvL2Level& level) {
+  for (int y = 0; y < level.height; ++y) {
+    for (int x = 0; x < level.width; ++x) {
+      const long i = level.at(y, x);
+      level.u[i] = level.cf[i] / level.c[i];
+      level.zx[i] = level.zy[i] = 0;
+    }
+  }
+  open_edges(level);
+}
+
 }  // namespace
 
 TvL2Grid::TvL2Grid(int height, int width) {
@@ -88,24 +120,6 @@ TvL2Grid::TvL2Grid(int height, int width) {
     next += plane;
   }
   row = next;
-}
-
-void coarsen_problem(const TvL2Level& fine, const TvL2Level& coarse) {
-  for (int y = 0; y < coarse.height; ++y) {
-    const long below = 2 * y + 1 < fine.height ? fine.pitch : 0;
-    for (int x = 0; x < coarse.width; ++x) {
-      const long i = fine.at(2 * y, 2 * x);
-      // Cells at an odd border count their pixels twice.
-      const long right = 2 * x + 1 < fine.width ? fine.odd : 0;
-      const auto sum = [=](const float* plane) {
-        return plane[i] + plane[i + right] + plane[i + below] + plane[i + below + right];
-      };
-      const long to = coarse.at(y, x);
-      coarse.c[to] = 0.5F * sum(fine.c);
-      coarse.cf[to] = 0.5F * sum(fine.cf);
-      coarse.g[to] = 0.25F * sum(fine.g);
-    }
-  }
 }
 
 void prolong(const TvL2Level& coarse, const TvL2Level& fine) {
@@ -128,17 +142,6 @@ void prolong(const TvL2Level& coarse, const TvL2Level& fine) {
     stretch_centres(row.data(), fine, fine.zy + to);
   }
   open_edges(fine);
-}
-
-void start_from_data(const TvL2Level& level) {
-  for (int y = 0; y < level.height; ++y) {
-    for (int x = 0; x < level.width; ++x) {
-      const long i = level.at(y, x);
-      level.u[i] = level.cf[i] / level.c[i];
-      level.zx[i] = level.zy[i] = 0;
-    }
-  }
-  open_edges(level);
 }
 
 // Between Galerkin's coarse edges (1, always stable) and those right for smooth corrections (½),

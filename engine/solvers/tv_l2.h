@@ -25,17 +25,10 @@ class TvL2Grid {
   LargeArray<float> memory_;
 };
 
-/// Data term and weights of a coarser image such that minimizing there approximates minimizing on
-/// `fine`: cells of 2×2, whose variation counts their side of 2 pixels.
-void coarsen_problem(const TvL2Level& fine, const TvL2Level& coarse);
-
 /// Starts `fine` from the solution on `coarse`, whose z is projected: u bilinear, z linear on the
 /// faces and to be projected, rx and ry 1 where there is an edge, for `penalize` to give them their
 /// value.
 void prolong(const TvL2Level& coarse, const TvL2Level& fine);
-
-/// u = f, z = p = 0, rx and ry as `prolong`.
-void start_from_data(const TvL2Level& level);
 
 /// Denoising of one image `[y][x]` by weighted total variation:
 /// P(u) = Σ g |∇u|₂ + 1/(2λ) Σ w (u − f)², forward differences, none across the last row and

@@ -103,10 +103,6 @@ void PolygonTool::press(const ToolPress& press) {
   }
 }
 
-void PolygonTool::hover(QPointF image) {
-  if (isDrawing() && !is_away_) setNext({image});
-}
-
 void PolygonTool::paintShape(QPainter& painter, const QTransform& widget_from_image) const {
   if (!is_away_) OutlineTool::paintShape(painter, widget_from_image);
 }

@@ -180,7 +180,9 @@ class PolygonTool : public OutlineTool {
   using OutlineTool::OutlineTool;
 
   void press(const ToolPress& press) override;
-  void hover(QPointF image) override;
+  void hover(QPointF image) override {
+    if (isDrawing() && !is_away_) setNext({image});
+  }
   void paintShape(QPainter& painter, const QTransform& widget_from_image) const override;
   /// Tells that another view is shown: the outline is not drawn, and clicks set no corners.
   void setAway(bool is_away);

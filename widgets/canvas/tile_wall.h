@@ -75,7 +75,6 @@ class TileWall : public QScrollArea {
   bool is_following_ = false;
 };
 
-/// Zoom of a canvas.
 [[nodiscard]] LinkedZoom zoom_of(const ViewCanvas& canvas);
 void set_zoom(ViewCanvas& canvas, const LinkedZoom& zoom);
 

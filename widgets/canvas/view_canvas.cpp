@@ -171,10 +171,6 @@ QPointF ViewCanvas::positionOf(PixelIndex pixel) const {
   return transform_.to_widget({pixel.x + 0.5, pixel.y + 0.5}, size());
 }
 
-double ViewCanvas::fitScale() const {
-  return fit_transform(picture_.size(), size()).scale;
-}
-
 QRect ViewCanvas::visiblePixels() const {
   if (picture_.isNull()) return {};
   const QRectF seen(transform_.to_image({0, 0}, size()),
@@ -185,18 +181,6 @@ QRect ViewCanvas::visiblePixels() const {
 void ViewCanvas::setCanvasTransform(const CanvasTransform& transform) {
   if (transform == transform_) return;
   changeTransform(transform, false);
-}
-
-void ViewCanvas::zoomIn() {
-  zoomAt(cursor_.value_or(QRectF(rect()).center()), kCanvasZoomStep);
-}
-
-void ViewCanvas::zoomOut() {
-  zoomAt(cursor_.value_or(QRectF(rect()).center()), 1 / kCanvasZoomStep);
-}
-
-void ViewCanvas::zoomToFit() {
-  changeTransform(fit_transform(picture_.size(), size()), true);
 }
 
 void ViewCanvas::zoomToActualSize() {
@@ -364,10 +348,6 @@ void ViewCanvas::contextMenuEvent(QContextMenuEvent* event) {
   if (tool_ || picture_.isNull() || !pixel) return event->ignore();
   emit menuRequested(*pixel,
                      is_key ? mapToGlobal(positionOf(*pixel).toPoint()) : event->globalPos());
-}
-
-void ViewCanvas::leaveEvent(QEvent*) {
-  followCursor(std::nullopt);
 }
 
 void ViewCanvas::followCursor(std::optional<QPointF> position) {

@@ -92,7 +92,7 @@ class ViewCanvas : public QWidget {
   [[nodiscard]] std::optional<PixelIndex> crossHair() const { return cross_hair_; }
   [[nodiscard]] CanvasTransform canvasTransform() const { return transform_; }
   /// Scale at which the whole picture fits.
-  [[nodiscard]] double fitScale() const;
+  [[nodiscard]] double fitScale() const { return fit_transform(picture_.size(), size()).scale; }
   /// Visible pixels; empty without a picture.
   [[nodiscard]] QRect visiblePixels() const;
   /// Position of the divider; none without a wipe.
@@ -109,10 +109,10 @@ class ViewCanvas : public QWidget {
  public slots:
   /// Follows a linked viewport; does not emit `transformChanged` for an equal value.
   void setCanvasTransform(const episcope::CanvasTransform& transform);
-  void zoomIn();
-  void zoomOut();
+  void zoomIn() { zoomAt(cursor_.value_or(QRectF(rect()).center()), kCanvasZoomStep); }
+  void zoomOut() { zoomAt(cursor_.value_or(QRectF(rect()).center()), 1 / kCanvasZoomStep); }
   /// Fits the whole picture, also after resizing until the user zooms or pans.
-  void zoomToFit();
+  void zoomToFit() { changeTransform(fit_transform(picture_.size(), size()), true); }
   /// 100 %: one image pixel per screen pixel.
   void zoomToActualSize();
   /// Pans as little as needed to make a pixel visible.
@@ -152,7 +152,7 @@ class ViewCanvas : public QWidget {
   void mouseReleaseEvent(QMouseEvent* event) override;
   void mouseDoubleClickEvent(QMouseEvent* event) override;
   void tabletEvent(QTabletEvent* event) override;
-  void leaveEvent(QEvent* event) override;
+  void leaveEvent(QEvent*) override { followCursor(std::nullopt); }
   void contextMenuEvent(QContextMenuEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
   void keyReleaseEvent(QKeyEvent* event) override;

@@ -5,7 +5,6 @@
 #include "widgets/controls/text.h"
 #include "widgets/controls/theme.h"
 
-#include <QFontMetricsF>
 #include <QLineF>
 #include <QPaintEvent>
 #include <QPainter>

@@ -49,7 +49,6 @@ vtkNew<Array> borrowed(const std::vector<std::array<Number, size>>& rows) {
   return array;
 }
 
-// One cell of all points.
 vtkNew<vtkCellArray> all_points(vtkIdType count) {
   vtkNew<vtkTypeInt32Array> points;
   points->SetNumberOfValues(count);
@@ -124,10 +123,6 @@ void CloudActor::setStretch(double factor, const std::array<double, 3>& around) 
 
 void CloudActor::setClip(vtkPlaneCollection& planes) {
   for (auto* mapper : {all_.mapper.Get(), few_.mapper.Get()}) mapper->SetClippingPlanes(&planes);
-}
-
-vtkPolyData& CloudActor::points() const {
-  return *all_.data.Get();
 }
 
 namespace {

@@ -45,7 +45,7 @@ class CloudActor {
 
   [[nodiscard]] const PointCloud& cloud() const { return part_.all; }
   /// Points for searches.
-  [[nodiscard]] vtkPolyData& points() const;
+  [[nodiscard]] vtkPolyData& points() const { return *all_.data.Get(); }
 
  private:
   struct Form {
@@ -72,7 +72,6 @@ class CloudMarks {
   CloudMarks(const CloudMarks&) = delete;
   CloudMarks& operator=(const CloudMarks&) = delete;
 
-  /// Draws a cross at each place.
   void setCrosses(const std::vector<std::array<double, 3>>& places);
   /// Draws a small named cross at each mark; emphasized ones in the color of the cross-hair.
   void setNamed(const std::vector<CloudMark>& marks);

@@ -17,7 +17,6 @@ namespace episcope {
 using CloudParts = std::vector<CloudPart>;
 using CloudPartsPtr = std::shared_ptr<const CloudParts>;
 
-/// A picked point of a part.
 struct PickedPoint {
   std::size_t part = 0;
   std::size_t point = 0;

@@ -8,8 +8,6 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QGridLayout>
-#include <QHBoxLayout>
-#include <QLabel>
 #include <QSignalBlocker>
 #include <QSlider>
 #include <QStackedLayout>
@@ -27,11 +25,10 @@ PointCloudPanel::PointCloudPanel(QWidget* parent)
     : QWidget(parent),
       display_(new CloudDisplay(this)),
       controls_(new CloudControls(this)),
-      elsewhere_(new QLabel(this)),
+      elsewhere_(named("cloud.elsewhere", new QLabel(this))),
       buttons_(new QHBoxLayout),
       rows_(new QVBoxLayout(this)) {
   setObjectName("pointCloudPanel");
-  elsewhere_->setObjectName("cloud.elsewhere");
   elsewhere_->setAlignment(Qt::AlignCenter);
   elsewhere_->setWordWrap(true);
   elsewhere_->hide();
@@ -60,8 +57,7 @@ void PointCloudPanel::addPresets() {
                       {CloudPreset::Side, "cloud.side", tr("Side")}};
   buttons_->setSpacing(theme::kSpacing);
   for (const auto& [preset, name, text] : rows) {
-    auto* button = new QToolButton(this);
-    button->setObjectName(name);
+    auto* button = named(name, new QToolButton(this));
     button->setText(text);
     button->setEnabled(isAvailable());
     buttons_->addWidget(button);
@@ -70,10 +66,6 @@ void PointCloudPanel::addPresets() {
     });
   }
   buttons_->addStretch(1);
-}
-
-void PointCloudPanel::addButton(QWidget* button) {
-  buttons_->addWidget(button);
 }
 
 void PointCloudPanel::lendDisplay(const QString& where) {
@@ -88,9 +80,10 @@ void PointCloudPanel::takeDisplayBack() {
 }
 
 CloudDisplay::CloudDisplay(QWidget* parent)
-    : QWidget(parent), hint_(new QLabel(this)), stack_(new QStackedLayout(this)) {
+    : QWidget(parent),
+      hint_(named("cloud.hint", new QLabel(this))),
+      stack_(new QStackedLayout(this)) {
   setObjectName("cloud.display");
-  hint_->setObjectName("cloud.hint");
   hint_->setAlignment(Qt::AlignCenter);
   hint_->setWordWrap(true);
   QWidget* made = make_point_cloud_view(this);
@@ -153,13 +146,13 @@ void offer(QComboBox& combo, Value value, bool is_offered) {
 
 CloudControls::CloudControls(QWidget* parent)
     : QWidget(parent),
-      coloring_(new QComboBox(this)),
-      companion_(new QComboBox(this)),
-      arrangement_(new QComboBox(this)),
-      surface_(new QCheckBox(tr("Surface"), this)),
-      shaded_(new QCheckBox(tr("Lit"), this)),
-      jump_(new NumberSpin(this)),
-      summary_(new QLabel(this)) {
+      coloring_(named("cloud.coloring", new QComboBox(this))),
+      companion_(named("cloud.companion", new QComboBox(this))),
+      arrangement_(named("cloud.arrangement", new QComboBox(this))),
+      surface_(named("cloud.surface", new QCheckBox(tr("Surface"), this))),
+      shaded_(named("cloud.shaded", new QCheckBox(tr("Lit"), this))),
+      jump_(named("cloud.jump", new NumberSpin(this))),
+      summary_(named("cloud.summary", new QLabel(this))) {
   setObjectName("cloud.controls");
   auto* grid = new QGridLayout(this);
   grid->setContentsMargins(0, 0, 0, 0);
@@ -169,7 +162,6 @@ CloudControls::CloudControls(QWidget* parent)
   addCompanion(*grid);
   addSurface(*grid);
   addLook(*grid);
-  summary_->setObjectName("cloud.summary");
   summary_->setWordWrap(true);
   summary_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   grid->addWidget(summary_, grid->rowCount(), 0, 1, 4);
@@ -178,7 +170,6 @@ CloudControls::CloudControls(QWidget* parent)
 }
 
 void CloudControls::addColoring(QGridLayout& grid) {
-  coloring_->setObjectName("cloud.coloring");
   coloring_->setToolTip(tr("Color of the points"));
   coloring_->setAccessibleName(tr("Color"));
   const std::pair<CloudColoring, QString> rows[] = {
@@ -196,7 +187,6 @@ void CloudControls::addColoring(QGridLayout& grid) {
 }
 
 void CloudControls::addCompanion(QGridLayout& grid) {
-  companion_->setObjectName("cloud.companion");
   companion_->setToolTip(tr("Shown together with the result"));
   companion_->setAccessibleName(tr("Shown with the result"));
   companion_->addItem(tr("nothing else"), static_cast<int>(CloudCompanion::None));
@@ -204,7 +194,6 @@ void CloudControls::addCompanion(QGridLayout& grid) {
   companion_->addItem(tr("B"), static_cast<int>(CloudCompanion::Other));
   companion_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   companion_->setMinimumContentsLength(8);
-  arrangement_->setObjectName("cloud.arrangement");
   arrangement_->setToolTip(tr("Where the two stand"));
   arrangement_->setAccessibleName(tr("Arrangement"));
   arrangement_->addItem(tr("in one place"), 0);
@@ -222,11 +211,8 @@ void CloudControls::addCompanion(QGridLayout& grid) {
 }
 
 void CloudControls::addSurface(QGridLayout& grid) {
-  surface_->setObjectName("cloud.surface");
   surface_->setToolTip(tr("Joins neighboring points to a surface, which is cut at jumps"));
-  shaded_->setObjectName("cloud.shaded");
   shaded_->setToolTip(tr("Lights the surface from where you look"));
-  jump_->setObjectName("cloud.jump");
   jump_->setAccessibleName(tr("Jump at which the surface is cut"));
   jump_->setToolTip(
       tr("Points are not joined if their disparities differ by more than this, in px per pixel "
@@ -247,17 +233,13 @@ void CloudControls::addSurface(QGridLayout& grid) {
   connect(jump_, &NumberSpin::valueChanged, this, &CloudControls::choiceChanged);
   jump_->setEnabled(false);
   shaded_->setEnabled(false);
-  auto* row = new QHBoxLayout;
-  row->addWidget(surface_);
-  row->addWidget(shaded_);
-  row->addStretch(1);
+  auto* row = make_row({surface_, shaded_, kRoom});
   grid.addLayout(row, 1, 0, 1, 2);
   grid.addWidget(jump_, 2, 0, 1, 2);
 }
 
 QSlider* CloudControls::makeSlider(const QString& name, const QString& text, const QString& tip) {
-  auto* slider = new QSlider(Qt::Horizontal, this);
-  slider->setObjectName(name);
+  auto* slider = named(name, new QSlider(Qt::Horizontal, this));
   slider->setToolTip(tip);
   slider->setAccessibleName(text);
   slider->setMinimumWidth(50);
@@ -352,10 +334,6 @@ void CloudControls::setOffers(const CloudOffers& offers) {
   offer(*companion_, CloudCompanion::Other, !offers.other.isEmpty());
   companion_->setItemText(companion_->findData(static_cast<int>(CloudCompanion::Other)),
                           offers.other.isEmpty() ? tr("B") : offers.other);
-}
-
-void CloudControls::setSummary(const QString& text) {
-  summary_->setText(text);
 }
 
 }  // namespace episcope

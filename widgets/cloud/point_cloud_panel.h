@@ -4,13 +4,13 @@
 #include "widgets/cloud/cloud_look.h"
 #include "widgets/cloud/point_cloud_view.h"
 
+#include <QHBoxLayout>
+#include <QLabel>
 #include <QWidget>
 
 class QCheckBox;
 class QComboBox;
 class QGridLayout;
-class QHBoxLayout;
-class QLabel;
 class QSlider;
 class QStackedLayout;
 class QVBoxLayout;
@@ -70,7 +70,7 @@ class CloudControls : public QWidget {
   /// Disables unavailable choices; the current choice stays.
   void setOffers(const CloudOffers& offers);
   /// Describes the drawn clouds below the controls.
-  void setSummary(const QString& text);
+  void setSummary(const QString& text) { summary_->setText(text); }
 
  signals:
   /// The host should provide clouds for this choice.
@@ -114,7 +114,7 @@ class PointCloudPanel : public QWidget {
   void lendDisplay(const QString& where);
   void takeDisplayBack();
   /// Adds a command's button beside the presets.
-  void addButton(QWidget* button);
+  void addButton(QWidget* button) { buttons_->addWidget(button); }
 
  private:
   void addPresets();

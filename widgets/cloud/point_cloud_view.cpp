@@ -2,6 +2,7 @@
 #include "widgets/cloud/point_cloud_view.h"
 
 #include "widgets/cloud/cloud_scene.h"
+#include "widgets/controls/tool_button.h"
 
 #include <vtkCommand.h>
 #include <vtkVersion.h>
@@ -24,6 +25,13 @@ namespace {
 constexpr double kClickReach = 3;  // logical pixels; a longer way is a drag
 constexpr int kStillAfter_ms = 250;
 constexpr qint64 kFluent_ms = 30;  // a frame that takes longer is drawn with few points
+
+// Text shown without OpenGL.
+QString no_gl_text() {
+  return OffscreenGl::tr(
+      "There is no 3D view: this session has no display with OpenGL. Export the result as PLY to "
+      "see it elsewhere.");
+}
 
 }  // namespace
 
@@ -217,8 +225,7 @@ QWidget* make_point_cloud_view(QWidget* parent) {
       QGuiApplication::platformName() != "minimal") {
     return new PointCloudView(parent);
   }
-  auto* label = new QLabel(no_gl_text(), parent);
-  label->setObjectName("pointCloudUnavailable");
+  auto* label = named("pointCloudUnavailable", new QLabel(no_gl_text(), parent));
   label->setAlignment(Qt::AlignCenter);
   label->setWordWrap(true);
   return label;
@@ -288,12 +295,6 @@ bool OffscreenGl::makeContext() {
   is_unavailable_ = !context->create() || !context->makeCurrent(&surface_);
   if (!is_unavailable_) context_ = std::move(context);
   return !is_unavailable_;
-}
-
-QString no_gl_text() {
-  return OffscreenGl::tr(
-      "There is no 3D view: this session has no display with OpenGL. Export the result as PLY to "
-      "see it elsewhere.");
 }
 
 std::string vtk_version() {

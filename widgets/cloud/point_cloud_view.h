@@ -65,9 +65,6 @@ class OffscreenGl : public QWidget {
   bool is_unavailable_ = false;
 };
 
-/// Text shown without OpenGL.
-[[nodiscard]] QString no_gl_text();
-
 enum class CloudPreset { Front, Tilted, Side };
 
 /// Point clouds and surfaces drawn by VTK: left drag turns, middle drag pans, the wheel zooms, a

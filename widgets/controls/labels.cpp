@@ -159,10 +159,6 @@ QString PartsLabel::shortened(int room) const {
   return fontMetrics().elidedText(textOf(count), Qt::ElideRight, room);
 }
 
-QString PartsLabel::tip() const {
-  return parts_.join('\n');
-}
-
 }  // namespace episcope
 
 #include "moc_labels.cpp"

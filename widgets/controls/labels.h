@@ -83,7 +83,7 @@ class PartsLabel : public ElidedLabel {
 
  private:
   [[nodiscard]] QString shortened(int room) const override;
-  [[nodiscard]] QString tip() const override;
+  [[nodiscard]] QString tip() const override { return parts_.join('\n'); }
   /// The first `count` parts and the number of the others.
   [[nodiscard]] QString textOf(qsizetype count) const;
 

@@ -33,18 +33,10 @@ constexpr double kLegendShare = 0.3;  // of the width, at most, for a name
 constexpr double kAxisRoom = 0.05;    // of an axis, beyond the points
 
 bool walks(const QKeyEvent& key) {
-  if (key.modifiers() & ~Qt::KeypadModifier) return false;
-  switch (key.key()) {
-    case Qt::Key_Left:
-    case Qt::Key_Right:
-    case Qt::Key_Up:
-    case Qt::Key_Down:
-    case Qt::Key_Return:
-    case Qt::Key_Enter:
-      return true;
-    default:
-      return false;
-  }
+  constexpr std::array<int, 6> kKeys{Qt::Key_Left, Qt::Key_Right,  Qt::Key_Up,
+                                     Qt::Key_Down, Qt::Key_Return, Qt::Key_Enter};
+  return !(key.modifiers() & ~Qt::KeypadModifier) &&
+         std::ranges::find(kKeys, key.key()) != kKeys.end();
 }
 
 bool is_finite(QPointF point) {
@@ -434,10 +426,6 @@ void LinePlot::mouseMoveEvent(QMouseEvent* event) {
 void LinePlot::mouseReleaseEvent(QMouseEvent* event) {
   if (event->button() != Qt::LeftButton) return;
   if (const auto place = placeAt(event->position())) emit pointChosen(*place);
-}
-
-void LinePlot::leaveEvent(QEvent*) {
-  setHovered(std::nullopt);
 }
 
 bool LinePlot::event(QEvent* event) {

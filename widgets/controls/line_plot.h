@@ -32,7 +32,6 @@ struct Plot {
   std::vector<PlotSeries> series;
 };
 
-/// A point of a plot.
 struct PlotPlace {
   std::size_t series = 0;
   std::size_t point = 0;
@@ -85,7 +84,7 @@ class LinePlot : public QWidget {
   void paintEvent(QPaintEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
   void mouseReleaseEvent(QMouseEvent* event) override;
-  void leaveEvent(QEvent* event) override;
+  void leaveEvent(QEvent*) override { setHovered(std::nullopt); }
   void keyPressEvent(QKeyEvent* event) override;
   void focusInEvent(QFocusEvent* event) override;
   void changeEvent(QEvent* event) override;

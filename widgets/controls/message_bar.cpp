@@ -11,7 +11,6 @@
 #include <QEvent>
 #include <QGridLayout>
 #include <QGuiApplication>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QPainter>
 #include <QProgressBar>
@@ -44,28 +43,23 @@ void paint_message_ground(QWidget& widget, const QColor& accent) {
 
 MessageBar::MessageBar(QWidget* parent)
     : QWidget(parent),
-      icon_(new QLabel(this)),
-      text_(new QLabel(this)),
+      icon_(named("message.icon", new QLabel(this))),
+      text_(named("message.text", new QLabel(this))),
       buttons_{Button{new QPushButton(this), {}}, Button{new QPushButton(this), {}}},
       close_(make_tool_button({"message.close", "close", tr("Close this message")}, this)) {
   setObjectName("messageBar");
-  icon_->setObjectName("message.icon");
-  text_->setObjectName("message.text");
   text_->setTextFormat(Qt::PlainText);
   text_->setWordWrap(true);
   text_->setMinimumWidth(1);
   // What is shown holds places to break: the sentence itself is copied by the menu.
-  auto* copy = new QAction(tr("Copy message"), text_);
-  copy->setObjectName("message.copy");
+  auto* copy = named("message.copy", new QAction(tr("Copy message"), text_));
   connect(copy, &QAction::triggered, this,
           [this] { QGuiApplication::clipboard()->setText(sentence_); });
   text_->addAction(copy);
   text_->setContextMenuPolicy(Qt::ActionsContextMenu);
-  auto* layout = new QHBoxLayout(this);
-  layout->setContentsMargins(theme::kMargin + 4, 4, theme::kMargin, 4);
-  layout->setSpacing(theme::kSpacing);
-  layout->addWidget(icon_);
-  layout->addWidget(text_, 1);
+  auto* layout =
+      make_row(this, {icon_, {text_, 1}},
+               {.margins = {theme::kMargin + 4, 4, theme::kMargin, 4}, .spacing = theme::kSpacing});
   const char* names[] = {"message.action", "message.other"};
   for (std::size_t i = 0; i < buttons_.size(); ++i) {
     buttons_[i].button->setObjectName(names[i]);
@@ -137,10 +131,6 @@ void MessageBar::updateIcon() {
   icon_->setPixmap(themed_icon(names[static_cast<int>(severity_)]).pixmap(16, 16));
 }
 
-void MessageBar::paintEvent(QPaintEvent*) {
-  paint_message_ground(*this, accent());
-}
-
 void MessageBar::changeEvent(QEvent* event) {
   QWidget::changeEvent(event);
   if (event->type() == QEvent::PaletteChange) updateIcon();
@@ -173,16 +163,14 @@ QString time_left_text(double fraction, double seconds) {
 
 JobPanel::JobPanel(QWidget* parent)
     : QWidget(parent),
-      scroll_(new QScrollArea(this)),
+      scroll_(named("jobPanel.scroll", new QScrollArea(this))),
       layout_(new QVBoxLayout),
-      idle_(new QLabel(tr("No jobs running"), this)) {
+      idle_(named("jobPanel.idle", new QLabel(tr("No jobs running"), this))) {
   setObjectName("jobPanel");
-  idle_->setObjectName("jobPanel.idle");
   auto* rows = new QWidget(scroll_);
   rows->setLayout(layout_);
   layout_->setContentsMargins(0, 0, 0, 0);
   layout_->setSpacing(theme::kSpacing);
-  scroll_->setObjectName("jobPanel.scroll");
   scroll_->setFrameShape(QFrame::NoFrame);
   scroll_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   scroll_->setFocusPolicy(Qt::NoFocus);
@@ -203,8 +191,7 @@ void JobPanel::addJob(quint64 id, const QString& title) {
   Row row;
   row.widget = new QWidget(scroll_->widget());
   row.widget->setObjectName(name);
-  auto* title_label = new ElidedLabel(row.widget);
-  title_label->setObjectName(name + ".title");
+  auto* title_label = named(name + ".title", new ElidedLabel(row.widget));
   title_label->setFullText(title);
   row.finish = make_tool_button(
       {name + ".finish", "success", tr("Finish now and keep the result so far")}, row.widget);
@@ -256,14 +243,6 @@ void JobPanel::setIterative(quint64 id) {
   if (!row) return;
   row->is_iterative = true;
   row->finish->setVisible(row->clock.isValid());  // what waits has nothing yet
-}
-
-void JobPanel::setCancelling(quint64 id) {
-  end(id, tr("cancelling"), true);
-}
-
-void JobPanel::setFinishing(quint64 id) {
-  end(id, tr("finishing"), false);
 }
 
 // A job that finishes can still be cancelled.

@@ -53,7 +53,7 @@ class MessageBar : public QWidget {
   void closed();
 
  protected:
-  void paintEvent(QPaintEvent* event) override;
+  void paintEvent(QPaintEvent*) override { paint_message_ground(*this, accent()); }
   void changeEvent(QEvent* event) override;
 
  private:
@@ -99,8 +99,8 @@ class JobPanel : public QWidget {
   /// Offers to end an iterative job early, once it has begun.
   void setIterative(quint64 id);
   /// Marks the job as being cancelled.
-  void setCancelling(quint64 id);
-  void setFinishing(quint64 id);
+  void setCancelling(quint64 id) { end(id, tr("cancelling"), true); }
+  void setFinishing(quint64 id) { end(id, tr("finishing"), false); }
   void removeJob(quint64 id);
 
   [[nodiscard]] int jobCount() const { return static_cast<int>(rows_.size()); }

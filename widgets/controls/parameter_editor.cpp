@@ -4,6 +4,7 @@
 #include "widgets/controls/number_spin.h"
 #include "widgets/controls/text.h"
 #include "widgets/controls/theme.h"
+#include "widgets/controls/tool_button.h"
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -14,7 +15,6 @@
 #include <QSignalBlocker>
 #include <QSlider>
 #include <QSpinBox>
-#include <QVBoxLayout>
 
 #include <algorithm>
 #include <cmath>
@@ -60,8 +60,7 @@ class WheelGuard : public QObject {
 
 NumberSpin* make_spin(const ParameterDescription& description, const char* control,
                       QWidget* parent) {
-  auto* spin = new NumberSpin(parent);
-  spin->setObjectName(control_name(description, control));
+  auto* spin = named(control_name(description, control), new NumberSpin(parent));
   const bool is_integer = std::holds_alternative<int>(description.default_value);
   const NumberScale scale(description);
   spin->setDecimals(is_integer ? 0 : scale.decimals());
@@ -239,11 +238,7 @@ class IntervalEditor : public ParameterEditor {
     ends->addWidget(min_, 1);
     ends->addWidget(new QLabel("…", ends_row_));
     ends->addWidget(max_, 1);
-    auto* column = new QVBoxLayout(this);
-    column->setContentsMargins(0, 0, 0, 0);
-    column->setSpacing(2);
-    column->addWidget(source_);
-    column->addWidget(ends_row_);
+    make_column(this, {source_, ends_row_}, {.spacing = 2});
     IntervalEditor::setValue(description.default_value);
     connect(source_, &QComboBox::currentIndexChanged, this, [this] { choose(); });
     connect(min_, &NumberSpin::valueChanged, this, [this](double value) {
@@ -402,8 +397,7 @@ class ViewEditor : public ParameterEditor {
  private:
   QSpinBox* make_place(const ParameterDescription& description, const char* name,
                        const QString& tip) {
-    auto* place = new QSpinBox(this);
-    place->setObjectName(control_name(description, name));
+    auto* place = named(control_name(description, name), new QSpinBox(this));
     place->setToolTip(tip);
     place->setButtonSymbols(QAbstractSpinBox::NoButtons);
     return place;

@@ -243,7 +243,6 @@ double part_of(const ParameterDescription& description, double value) {
   return description.logarithmic ? std::log1p(kPowers * part) / std::log1p(kPowers) : part;
 }
 
-/// Shows the picture of one value.
 class PictureLabel : public QWidget {
  public:
   PictureLabel(ParameterDescription description, ParameterValue value, QWidget* parent)

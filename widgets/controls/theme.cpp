@@ -133,6 +133,11 @@ QPalette dark_palette() {
 namespace episcope {
 namespace {
 
+// "A", "B" or nothing.
+QString side_letter(Side side) {
+  return side == Side::None ? QString() : QString(side == Side::A ? "A" : "B");
+}
+
 class SideIconEngine : public PaintedIconEngine {
  public:
   explicit SideIconEngine(Side side) : side_(side) {}
@@ -150,10 +155,6 @@ class SideIconEngine : public PaintedIconEngine {
 };
 
 }  // namespace
-
-QString side_letter(Side side) {
-  return side == Side::None ? QString() : QString(side == Side::A ? "A" : "B");
-}
 
 QColor side_color(Side side) {
   return side == Side::B ? QColor(0xb4, 0x53, 0x09) : QColor(0x1d, 0x64, 0xb4);

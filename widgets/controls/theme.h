@@ -25,7 +25,6 @@ inline constexpr QColor kMeasured{0xff, 0x8b, 0xd1};  ///< A line drawn by hand.
 inline constexpr int kSpacing = 6;  ///< Between controls, logical pixels.
 inline constexpr int kMargin = 8;   ///< Around groups.
 
-/// Whether the palette is dark.
 [[nodiscard]] bool is_dark(const QPalette& palette);
 /// Less prominent text, still legible: contrast ≥ 4.5 against window and tabs.
 [[nodiscard]] QColor muted_text(const QPalette& palette);
@@ -56,8 +55,6 @@ namespace episcope {
 /// The two compared results: A is shown, B is compared with it.
 enum class Side { None, A, B };
 
-/// "A", "B" or nothing.
-[[nodiscard]] QString side_letter(Side side);
 /// Blue for A, orange for B: distinct on any picture and for the color-blind.
 [[nodiscard]] QColor side_color(Side side);
 /// The letter on its color, for lists; null for None.

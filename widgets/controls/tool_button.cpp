@@ -101,8 +101,7 @@ QIcon swatch(const Rgb& rgb, const QPalette& palette) {
 }
 
 QToolButton* make_tool_button(const ToolButtonText& text, QWidget* parent) {
-  auto* button = new QToolButton(parent);
-  button->setObjectName(text.name);
+  auto* button = named(text.name, new QToolButton(parent));
   button->setIcon(themed_icon(text.icon));
   button->setIconSize({14, 14});
   button->setToolTip(text.tip);
@@ -116,8 +115,7 @@ QToolButton* make_tool_button(const ToolButtonText& text, QWidget* parent) {
 }
 
 QToolButton* make_action_button(QAction* action, const QString& object_name, QWidget* parent) {
-  auto* button = new QToolButton(parent);
-  button->setObjectName(object_name);
+  auto* button = named(object_name, new QToolButton(parent));
   button->setDefaultAction(action);
   button->setIconSize({16, 16});
   button->setFocusPolicy(Qt::NoFocus);
@@ -130,6 +128,40 @@ void follow_tip(QWidget* widget, const QAction* action) {
   follow();
 }
 
+namespace {
+
+template <class Layout>
+Layout* fill(Layout* layout, std::initializer_list<LayoutPart> parts, const LayoutLook& look) {
+  layout->setContentsMargins(look.margins);
+  layout->setSpacing(look.spacing);
+  for (const LayoutPart& part : parts) {
+    if (part.widget) {
+      layout->addWidget(part.widget, part.share);
+    } else if (part.layout) {
+      layout->addLayout(part.layout, part.share);
+    } else {
+      layout->addStretch(part.share);
+    }
+  }
+  return layout;
+}
+
+}  // namespace
+
+QVBoxLayout* make_column(QWidget* place, std::initializer_list<LayoutPart> parts,
+                         const LayoutLook& look) {
+  return fill(new QVBoxLayout(place), parts, look);
+}
+
+QHBoxLayout* make_row(QWidget* place, std::initializer_list<LayoutPart> parts,
+                      const LayoutLook& look) {
+  return fill(new QHBoxLayout(place), parts, look);
+}
+
+QHBoxLayout* make_row(std::initializer_list<LayoutPart> parts, const LayoutLook& look) {
+  return make_row(nullptr, parts, look);
+}
+
 void lay_out_list(QWidget* panel, QLabel* hint, QWidget* list,
                   std::initializer_list<QToolButton*> buttons) {
   hint->setAlignment(Qt::AlignCenter);
@@ -138,12 +170,7 @@ void lay_out_list(QWidget* panel, QLabel* hint, QWidget* list,
   row->setSpacing(2);
   for (auto* button : buttons) row->addWidget(button);
   row->addStretch(1);
-  auto* layout = new QVBoxLayout(panel);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(4);
-  layout->addWidget(hint, 1);
-  layout->addWidget(list, 1);
-  layout->addLayout(row);
+  make_column(panel, {{hint, 1}, {list, 1}, row}, {.spacing = 4});
 }
 
 FittingSplitter::FittingSplitter(int least_rest, QWidget* parent)

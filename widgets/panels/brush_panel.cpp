@@ -2,22 +2,16 @@
 #include "widgets/panels/brush_panel.h"
 
 #include "annotation/brush.h"
-#include "widgets/controls/labels.h"
 #include "widgets/controls/theme.h"
 #include "widgets/controls/tool_button.h"
 
-#include <QCheckBox>
 #include <QComboBox>
-#include <QDoubleSpinBox>
 #include <QFormLayout>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QSignalBlocker>
-#include <QSlider>
 #include <QSpinBox>
 #include <QStandardItemModel>
 #include <QToolButton>
-#include <QVBoxLayout>
 
 #include <cmath>
 
@@ -33,10 +27,10 @@ constexpr int kFirstOpacity = 70;
 BrushPanel::BrushPanel(QWidget* parent)
     : QWidget(parent),
       buttons_(new QHBoxLayout),
-      protects_(new QCheckBox(tr("Protect other labels"), this)),
-      bound_(new QComboBox(this)),
-      tolerance_(new QDoubleSpinBox(this)),
-      opacity_(new QSlider(Qt::Horizontal, this)) {
+      protects_(named("brush.protect", new QCheckBox(tr("Protect other labels"), this))),
+      bound_(named("fill.bound", new QComboBox(this))),
+      tolerance_(named("fill.tolerance", new QDoubleSpinBox(this))),
+      opacity_(named("brush.opacity", new QSlider(Qt::Horizontal, this))) {
   setObjectName("brushPanel");
   buttons_->setSpacing(2);
   buttons_->addStretch(1);
@@ -48,21 +42,15 @@ BrushPanel::BrushPanel(QWidget* parent)
   eraser_ = addSize(*form, "eraser", tr("Eraser"), &BrushPanel::eraserSizeEdited);
   setSizeKeys({});
   addFill(*form);
-  opacity_->setObjectName("brush.opacity");
   opacity_->setRange(0, 100);
   opacity_->setValue(kFirstOpacity);
   opacity_->setToolTip(tr("Opacity of painted labels"));
   form->addRow(tr("Opacity"), opacity_);
-  protects_->setObjectName("brush.protect");
   protects_->setToolTip(
       tr("The brush paints only unpainted pixels, and the eraser erases only the current label. "
          "Hold Shift for a single stroke of this kind."));
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, theme::kSpacing, 0, 0);
-  layout->setSpacing(theme::kSpacing);
-  layout->addLayout(buttons_);
-  layout->addLayout(form);
-  layout->addWidget(protects_);
+  make_column(this, {buttons_, form, protects_},
+              {.margins = {0, theme::kSpacing, 0, 0}, .spacing = theme::kSpacing});
   connect(protects_, &QCheckBox::toggled, this, &BrushPanel::protectsOthersEdited);
   connect(opacity_, &QSlider::valueChanged, this,
           [this] { emit scribbleOpacityEdited(scribbleOpacity()); });
@@ -79,10 +67,7 @@ BrushPanel::SizeRow BrushPanel::addSize(QFormLayout& form, const QString& name, 
   row.spin->setRange(static_cast<int>(kMinBrush_px), static_cast<int>(kMaxBrush_px));
   row.spin->setSuffix(tr(" px"));
   row.spin->setKeyboardTracking(false);
-  auto* line = new QHBoxLayout;
-  line->setSpacing(theme::kSpacing);
-  line->addWidget(row.slider, 1);
-  line->addWidget(row.spin);
+  auto* line = make_row({{row.slider, 1}, row.spin}, {.spacing = theme::kSpacing});
   form.addRow(text, line);
   connect(row.slider, &QSlider::valueChanged, row.spin, &QSpinBox::setValue);
   connect(row.spin, &QSpinBox::valueChanged, this, [this, row, edited](int diameter_px) {
@@ -94,13 +79,11 @@ BrushPanel::SizeRow BrushPanel::addSize(QFormLayout& form, const QString& name, 
 }
 
 void BrushPanel::addFill(QFormLayout& form) {
-  bound_->setObjectName("fill.bound");
   bound_->addItem(tr("like colors"), static_cast<int>(FillBound::Likeness));
   bound_->addItem(tr("its segment"), static_cast<int>(FillBound::Segmentation));
   bound_->setToolTip(
       tr("Limits of a fill: pixels of like color on one surface, or the segment of the current "
          "segmentation"));
-  tolerance_->setObjectName("fill.tolerance");
   tolerance_->setLocale(QLocale::c());
   tolerance_->setRange(0, kMostTolerance);
   tolerance_->setDecimals(1);
@@ -109,10 +92,7 @@ void BrushPanel::addFill(QFormLayout& form) {
   tolerance_->setToolTip(
       tr("How much colors may differ from the color under the cursor, in units of what neighboring "
          "pixels of this view differ by. Drag to the right or left while filling to change it."));
-  auto* line = new QHBoxLayout;
-  line->setSpacing(theme::kSpacing);
-  line->addWidget(bound_, 1);
-  line->addWidget(tolerance_);
+  auto* line = make_row({{bound_, 1}, tolerance_}, {.spacing = theme::kSpacing});
   form.addRow(tr("Fill"), line);
   setSegmentationAvailable(false);
 }
@@ -167,49 +147,26 @@ void BrushPanel::setFillTolerance(double tolerance) {
   tolerance_->setValue(tolerance);
 }
 
-double BrushPanel::fillTolerance() const {
-  return tolerance_->value();
-}
-
-bool BrushPanel::protectsOthers() const {
-  return protects_->isChecked();
-}
-
-double BrushPanel::scribbleOpacity() const {
-  return opacity_->value() / 100.0;
-}
-
 AnnotationBar::AnnotationBar(QWidget* parent)
     : QWidget(parent),
-      carried_(new QCheckBox(tr("Propagate to all views by"), this)),
-      by_(new QComboBox(this)),
-      carry_state_(new ElidedLabel(this)),
-      file_state_(new ElidedLabel(this, Qt::ElideMiddle)),
+      carried_(named("carry.on", new QCheckBox(tr("Propagate to all views by"), this))),
+      by_(named("carry.by", new QComboBox(this))),
+      carry_state_(named("carry.state", new ElidedLabel(this))),
+      file_state_(named("annotation.file", new ElidedLabel(this, Qt::ElideMiddle))),
       buttons_(new QHBoxLayout) {
   setObjectName("annotationBar");
-  carried_->setObjectName("carry.on");
   carried_->setToolTip(
       tr("Shows the scribbles of every view on all others, as stripes: propagated along rays, "
          "except where they are occluded. They never replace what you painted."));
-  by_->setObjectName("carry.by");
   by_->addItem(tr("the shown estimate"), static_cast<int>(CarriedBy::Estimate));
   by_->addItem(tr("the ground truth"), static_cast<int>(CarriedBy::Truth));
   by_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
   by_->setToolTip(tr("Disparity along which scribbles are propagated"));
-  carry_state_->setObjectName("carry.state");
-  file_state_->setObjectName("annotation.file");
-  auto* carry = new QHBoxLayout;
-  carry->setSpacing(theme::kSpacing);
-  carry->addWidget(carried_);
-  carry->addWidget(by_, 1);
+  auto* carry = make_row({carried_, {by_, 1}}, {.spacing = theme::kSpacing});
   buttons_->setSpacing(2);
   buttons_->addWidget(file_state_, 1);
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, theme::kSpacing);
-  layout->setSpacing(4);
-  layout->addLayout(carry);
-  layout->addWidget(carry_state_);
-  layout->addLayout(buttons_);
+  make_column(this, {carry, carry_state_, buttons_},
+              {.margins = {0, 0, 0, theme::kSpacing}, .spacing = 4});
   connect(carried_, &QCheckBox::toggled, this, &AnnotationBar::carriedEdited);
   connect(by_, &QComboBox::activated, this, [this] {
     is_chosen_ = true;
@@ -240,14 +197,6 @@ void AnnotationBar::setCarried(bool is_carried) {
 void AnnotationBar::setCarryState(const QString& state) {
   carry_state_->setFullText(state);
   carry_state_->setVisible(!state.isEmpty());
-}
-
-void AnnotationBar::setFileState(const QString& state) {
-  file_state_->setFullText(state);
-}
-
-bool AnnotationBar::isCarried() const {
-  return carried_->isChecked();
 }
 
 AnnotationBar::CarriedBy AnnotationBar::carriedBy() const {

@@ -2,22 +2,21 @@
 #pragma once
 
 #include "widgets/canvas/canvas_tool.h"
+#include "widgets/controls/labels.h"
 
+#include <QCheckBox>
+#include <QDoubleSpinBox>
+#include <QHBoxLayout>
+#include <QSlider>
 #include <QString>
 #include <QWidget>
 
 class QAction;
-class QCheckBox;
 class QComboBox;
-class QDoubleSpinBox;
 class QFormLayout;
-class QHBoxLayout;
-class QSlider;
 class QSpinBox;
 
 namespace episcope {
-
-class ElidedLabel;
 
 /// Limit of a fill.
 enum class FillBound { Likeness, Segmentation };
@@ -44,9 +43,9 @@ class BrushPanel : public QWidget {
   void setSegmentationAvailable(bool is_available);
 
   [[nodiscard]] FillBound fillBound() const;
-  [[nodiscard]] double fillTolerance() const;
-  [[nodiscard]] bool protectsOthers() const;
-  [[nodiscard]] double scribbleOpacity() const;
+  [[nodiscard]] double fillTolerance() const { return tolerance_->value(); }
+  [[nodiscard]] bool protectsOthers() const { return protects_->isChecked(); }
+  [[nodiscard]] double scribbleOpacity() const { return opacity_->value() / 100.0; }
 
  signals:
   void brushSizeEdited(double diameter_px);
@@ -92,9 +91,9 @@ class AnnotationBar : public QWidget {
   /// State of carrying, e.g. "carrying …"; empty = none.
   void setCarryState(const QString& state);
   /// File name, and whether the file is up to date.
-  void setFileState(const QString& state);
+  void setFileState(const QString& state) { file_state_->setFullText(state); }
 
-  [[nodiscard]] bool isCarried() const;
+  [[nodiscard]] bool isCarried() const { return carried_->isChecked(); }
   [[nodiscard]] CarriedBy carriedBy() const;
 
  signals:

@@ -2,12 +2,10 @@
 #include "widgets/panels/capture_panel.h"
 
 #include "widgets/cloud/point_cloud_view.h"
-#include "widgets/controls/labels.h"
 #include "widgets/controls/text.h"
 #include "widgets/controls/theme.h"
 #include "widgets/controls/tool_button.h"
 
-#include <QCheckBox>
 #include <QComboBox>
 #include <QEvent>
 #include <QGridLayout>
@@ -20,8 +18,6 @@
 #include <QSignalBlocker>
 #include <QStackedLayout>
 #include <QTableWidget>
-#include <QToolButton>
-#include <QVBoxLayout>
 
 #include <algorithm>
 #include <initializer_list>
@@ -34,15 +30,13 @@ enum PairColumn { kPairName, kPairLock, kPairPixel, kPairPoint, kPairOff };
 
 QPushButton* make_button(QWidget* parent, const char* name, const QString& text,
                          const QString& tip) {
-  auto* button = new QPushButton(text, parent);
-  button->setObjectName(name);
+  auto* button = named(name, new QPushButton(text, parent));
   button->setToolTip(tip);
   return button;
 }
 
 QLabel* make_text(QWidget* parent, const char* name) {
-  auto* label = new QLabel(parent);
-  label->setObjectName(name);
+  auto* label = named(name, new QLabel(parent));
   label->setWordWrap(true);
   return label;
 }
@@ -68,26 +62,20 @@ CapturePanel::CapturePanel(QWidget* parent)
       hint_(make_text(this, "capture.hint")),
       next_(make_text(this, "capture.next")),
       pose_(make_text(this, "capture.pose")),
-      snap_(new QCheckBox(tr("Snap"), this)),
+      snap_(named("capture.snap", new QCheckBox(tr("Snap"), this))),
       add_(make_button(this, "capture.add", tr("Add pair"),
                        tr("The cross-hair and the marked point of the mesh are the same point"))),
       undo_(
           make_tool_button({"capture.undo", "undo", tr("Undo the last change of this tab")}, this)),
       redo_(make_tool_button({"capture.redo", "redo", tr("Redo the last undone change")}, this)),
-      table_(new QTableWidget(this)),
+      table_(named("capture.pairs", new QTableWidget(this))),
       stack_(new QStackedLayout) {
   setObjectName("capturePanel");
-  snap_->setObjectName("capture.snap");
   snap_->setToolTip(
       tr("Takes the corner or the center of the blob beside the cross-hair, to a "
          "fraction of a pixel"));
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(theme::kSpacing);
-  layout->addWidget(steps_);
-  layout->addWidget(makeView(), 3);
-  layout->addWidget(makePairs(), 2);
-  layout->addWidget(makeResults());
+  make_column(this, {steps_, {makeView(), 3}, {makePairs(), 2}, makeResults()},
+              {.spacing = theme::kSpacing});
   setMesh(std::make_shared<const CloudParts>());
   setRows({});
   setNext({}, std::nullopt, false);
@@ -108,16 +96,12 @@ QWidget* CapturePanel::makeView() {
   if (view_) connect(view_, &PointCloudView::pointPicked, this, &CapturePanel::vertexPicked);
   stack_->addWidget(hint_);
   stack_->addWidget(made);
-  auto* layout = new QVBoxLayout(part);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->addWidget(objects_);
-  layout->addLayout(stack_, 1);
+  make_column(part, {objects_, {stack_, 1}});
   return part;
 }
 
 QWidget* CapturePanel::makePairs() {
   auto* part = new QWidget(this);
-  table_->setObjectName("capture.pairs");
   table_->setAccessibleName(tr("Picked pairs"));
   table_->setColumnCount(5);
   table_->setHorizontalHeaderLabels({tr("Pair"), tr("Lock"), tr("View"), tr("Mesh"), tr("Off by")});
@@ -144,15 +128,8 @@ QWidget* CapturePanel::makePairs() {
   for (QWidget* each : std::initializer_list<QWidget*>{remove_, undo_, redo_, import, export_}) {
     buttons->addWidget(each);
   }
-  auto* next = new QHBoxLayout;
-  next->addWidget(next_, 1);
-  next->addWidget(snap_);
-  next->addWidget(add_);
-  auto* layout = new QVBoxLayout(part);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->addLayout(next);
-  layout->addWidget(table_, 1);
-  layout->addLayout(buttons);
+  auto* next = make_row({{next_, 1}, snap_, add_});
+  make_column(part, {next, {table_, 1}, buttons});
   connect(snap_, &QCheckBox::toggled, this, &CapturePanel::snapChanged);
   connect(add_, &QPushButton::clicked, this, &CapturePanel::addRequested);
   connect(remove_, &QPushButton::clicked, this, &CapturePanel::removeRequested);
@@ -176,10 +153,7 @@ QWidget* CapturePanel::makeResults() {
   of_pose_ = {show, save, truth};
   auto* buttons = new QHBoxLayout;
   for (QPushButton* each : of_pose_) buttons->addWidget(each);
-  auto* layout = new QVBoxLayout(part);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->addWidget(pose_);
-  layout->addLayout(buttons);
+  make_column(part, {pose_, buttons});
   connect(show, &QPushButton::clicked, this, &CapturePanel::showRequested);
   connect(save, &QPushButton::clicked, this, &CapturePanel::savePoseRequested);
   connect(truth, &QPushButton::clicked, this, &CapturePanel::writeTruthRequested);
@@ -271,18 +245,6 @@ void CapturePanel::setPose(const QString& text, bool is_known) {
   for (QPushButton* each : of_pose_) each->setEnabled(is_known);
 }
 
-void CapturePanel::setUndoable(bool is_undoable) {
-  undo_->setEnabled(is_undoable);
-}
-
-void CapturePanel::setRedoable(bool is_redoable) {
-  redo_->setEnabled(is_redoable);
-}
-
-bool CapturePanel::snaps() const {
-  return snap_->isChecked();
-}
-
 std::vector<int> CapturePanel::selectedRows() const {
   std::vector<int> rows;
   for (const QModelIndex& index : table_->selectionModel()->selectedRows()) {
@@ -300,11 +262,10 @@ void CapturePanel::change(int row, int column) {
 
 CaptureObjects::CaptureObjects(QWidget* parent)
     : QWidget(parent),
-      names_(new QComboBox(this)),
+      names_(named("capture.objects", new QComboBox(this))),
       remove_(make_button(this, "capture.removeObject", tr("Remove"),
                           tr("Removes this object with its pairs"))),
-      mesh_(new ElidedLabel(this, Qt::ElideMiddle)) {
-  names_->setObjectName("capture.objects");
+      mesh_(named("capture.mesh", new ElidedLabel(this, Qt::ElideMiddle))) {
   names_->setAccessibleName(tr("Objects"));
   names_->setToolTip(
       tr("The object whose pairs are picked; type to rename it. Each has its own mesh and pose."));
@@ -313,7 +274,6 @@ CaptureObjects::CaptureObjects(QWidget* parent)
   names_->setCompleter(nullptr);
   names_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   names_->setMinimumContentsLength(6);
-  mesh_->setObjectName("capture.mesh");
   auto* add = make_button(this, "capture.addObject", tr("Add…"),
                           tr("Adds one more object, with a mesh of its own"));
   auto* open = make_button(this, "capture.open", tr("Open mesh…"),
@@ -351,15 +311,10 @@ void CaptureObjects::setObjects(const QStringList& names, int current) {
   remove_->setEnabled(is_there);
 }
 
-void CaptureObjects::setMesh(const QString& text) {
-  mesh_->setFullText(text.isEmpty() ? tr("No mesh") : text);
-}
-
 namespace {
 
 ElidedLabel* make_state(QWidget* parent, const char* name) {
-  auto* label = new ElidedLabel(parent, Qt::ElideRight);
-  label->setObjectName(name);
+  auto* label = named(name, new ElidedLabel(parent, Qt::ElideRight));
   return label;
 }
 
@@ -369,13 +324,11 @@ PhotographSteps::PhotographSteps(QWidget* parent)
     : QWidget(parent),
       camera_(make_state(this, "capture.camera")),
       alignment_(make_state(this, "capture.alignment")),
-      lens_(new QPushButton(tr("Lens"), this)),
-      rectify_(new QPushButton(tr("Rectify…"), this)) {
-  rectify_->setObjectName("capture.rectify");
+      lens_(named("capture.lens", new QPushButton(tr("Lens"), this))),
+      rectify_(named("capture.rectify", new QPushButton(tr("Rectify…"), this))) {
   rectify_->setToolTip(
       tr("Rectifies the open photographs into a light field with aligned rows and columns. Pairs "
          "picked in them are carried over."));
-  lens_->setObjectName("capture.lens");
   auto* menu = new QMenu(lens_);
   connect(menu->addAction(tr("Calibrate from photographs…")), &QAction::triggered, this,
           &PhotographSteps::calibrateRequested);

@@ -2,10 +2,13 @@
 #pragma once
 
 #include "widgets/cloud/cloud_look.h"
+#include "widgets/controls/labels.h"
 
+#include <QCheckBox>
 #include <QPointF>
 #include <QString>
 #include <QStringList>
+#include <QToolButton>
 #include <QWidget>
 
 #include <array>
@@ -13,18 +16,15 @@
 #include <vector>
 
 class QAction;
-class QCheckBox;
 class QComboBox;
 class QLabel;
 class QPushButton;
 class QStackedLayout;
 class QTableWidget;
-class QToolButton;
 
 namespace episcope {
 
 class CaptureObjects;
-class ElidedLabel;
 class PhotographSteps;
 class PointCloudView;
 
@@ -58,10 +58,10 @@ class CapturePanel : public QWidget {
   void setHovered(std::optional<int> row) { hover(row); }
   /// What is known of the pose, or what is missing.
   void setPose(const QString& text, bool is_known);
-  void setUndoable(bool is_undoable);
-  void setRedoable(bool is_redoable);
+  void setUndoable(bool is_undoable) { undo_->setEnabled(is_undoable); }
+  void setRedoable(bool is_redoable) { redo_->setEnabled(is_redoable); }
   /// Whether picks snap to the nearest corner or blob.
-  [[nodiscard]] bool snaps() const;
+  [[nodiscard]] bool snaps() const { return snap_->isChecked(); }
   [[nodiscard]] PhotographSteps* steps() const { return steps_; }
   [[nodiscard]] CaptureObjects* objects() const { return objects_; }
   [[nodiscard]] std::vector<int> selectedRows() const;
@@ -128,7 +128,7 @@ class CaptureObjects : public QWidget {
   /// `current`: index of the current object.
   void setObjects(const QStringList& names, int current);
   /// Describes its mesh; empty = none.
-  void setMesh(const QString& text);
+  void setMesh(const QString& text) { mesh_->setFullText(text.isEmpty() ? tr("No mesh") : text); }
 
  signals:
   void chosen(int object);

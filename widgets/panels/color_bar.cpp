@@ -6,12 +6,10 @@
 #include "widgets/controls/tool_button.h"
 
 #include <QGridLayout>
-#include <QHBoxLayout>
 #include <QImage>
 #include <QLabel>
 #include <QPainter>
 #include <QSignalBlocker>
-#include <QToolButton>
 
 #include <algorithm>
 #include <cmath>
@@ -21,8 +19,7 @@ namespace episcope {
 namespace {
 
 NumberSpin* make_end(const char* name, const QString& tip, QWidget* parent) {
-  auto* spin = new NumberSpin(parent);
-  spin->setObjectName(name);
+  auto* spin = named(name, new NumberSpin(parent));
   spin->setRange(-1e4, 1e4);
   spin->setDecimals(3);
   spin->setButtonSymbols(QAbstractSpinBox::NoButtons);
@@ -41,12 +38,12 @@ QString swatch_text(const Rgb& color, const QString& text) {
 
 ColorBar::ColorBar(QWidget* parent)
     : QWidget(parent),
-      title_(new QLabel(this)),
+      title_(named("colorBar.title", new QLabel(this))),
       ramp_(new ColorRamp(this)),
       min_(make_end("colorBar.min", tr("Lower end of the range"), this)),
       max_(make_end("colorBar.max", tr("Upper end of the range"), this)),
-      swatches_(new QLabel(this)),
-      invalid_(new QLabel(this)),
+      swatches_(named("colorBar.swatches", new QLabel(this))),
+      invalid_(named("colorBar.invalid", new QLabel(this))),
       lock_(make_tool_button(
           {"colorBar.lock", "unlock", tr("Lock the range: it stays when the result changes")},
           this)),
@@ -54,29 +51,17 @@ ColorBar::ColorBar(QWidget* parent)
           {"colorBar.automatic", "auto", tr("Automatic range of the visible values")}, this)),
       own_(make_tool_button({"colorBar.own", "reset", tr("Default range of the quantity")}, this)) {
   setObjectName("colorBar");
-  title_->setObjectName("colorBar.title");
   title_->setTextInteractionFlags(Qt::NoTextInteraction);
   title_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-  swatches_->setObjectName("colorBar.swatches");
   swatches_->setTextFormat(Qt::RichText);
   swatches_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   swatches_->hide();
-  invalid_->setObjectName("colorBar.invalid");
   invalid_->setTextFormat(Qt::RichText);
   invalid_->setToolTip(tr("Color of pixels without a value"));
   lock_->setCheckable(true);
 
-  auto* foot = new QHBoxLayout;
-  foot->setSpacing(0);
-  foot->addWidget(invalid_, 1);
-  foot->addWidget(lock_);
-  foot->addWidget(automatic_);
-  foot->addWidget(own_);
-  auto* ends = new QHBoxLayout;
-  ends->setSpacing(theme::kSpacing);
-  ends->addWidget(min_);
-  ends->addStretch(1);
-  ends->addWidget(max_);
+  auto* foot = make_row({{invalid_, 1}, lock_, automatic_, own_}, {.spacing = 0});
+  auto* ends = make_row({min_, kRoom, max_}, {.spacing = theme::kSpacing});
   auto* layout = new QGridLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setVerticalSpacing(3);
@@ -154,10 +139,6 @@ void ColorBar::followTips(const QAction* automatic, const QAction* own) {
 Interval ColorBar::range() const {
   return ramp_->shading().range;
 }
-bool ColorBar::isRangeLocked() const {
-  return lock_->isChecked();
-}
-
 void ColorBar::editRange() {
   Interval range{min_->value(), max_->value()};
   // An end pushed past the other one takes it along.

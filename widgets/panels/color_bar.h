@@ -4,13 +4,13 @@
 #include "engine/render/shade.h"
 
 #include <QString>
+#include <QToolButton>
 #include <QWidget>
 
 #include <vector>
 
 class QAction;
 class QLabel;
-class QToolButton;
 
 namespace episcope {
 
@@ -41,7 +41,7 @@ class ColorBar : public QWidget {
   void followTips(const QAction* automatic, const QAction* own);
 
   [[nodiscard]] Interval range() const;
-  [[nodiscard]] bool isRangeLocked() const;
+  [[nodiscard]] bool isRangeLocked() const { return lock_->isChecked(); }
 
  signals:
   void rangeEdited(episcope::Interval range);

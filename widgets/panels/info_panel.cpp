@@ -11,7 +11,6 @@
 #include <QLabel>
 #include <QRegularExpression>
 #include <QScrollArea>
-#include <QVBoxLayout>
 
 #include <algorithm>
 #include <iterator>
@@ -43,8 +42,7 @@ QLabel* make_value(const QString& text, int lines, QWidget* parent) {
 
 /// How a fact was found out: long, and read by few.
 QLabel* make_quiet(const QString& text, const char* name, QWidget* parent) {
-  auto* label = new QLabel(breakable(with_units(text)), parent);
-  label->setObjectName(name);
+  auto* label = named(name, new QLabel(breakable(with_units(text)), parent));
   label->setTextFormat(Qt::PlainText);
   label->setWordWrap(true);
   label->setMinimumWidth(1);
@@ -54,8 +52,7 @@ QLabel* make_quiet(const QString& text, const char* name, QWidget* parent) {
 }
 
 QToolButton* make_button(QAction* action, QWidget* parent) {
-  auto* button = new QToolButton(parent);
-  button->setObjectName("info.action");
+  auto* button = named("info.action", new QToolButton(parent));
   button->setDefaultAction(action);
   button->setToolButtonStyle(Qt::ToolButtonTextOnly);
   return button;
@@ -65,25 +62,18 @@ QToolButton* make_button(QAction* action, QWidget* parent) {
 
 InfoPanel::InfoPanel(QWidget* parent)
     : QWidget(parent),
-      title_(new ElidedLabel(this)),
-      conventions_(new QToolButton(this)),
-      scroll_(new QScrollArea(this)) {
+      title_(named("info.title", new ElidedLabel(this))),
+      conventions_(named("info.conventions", new QToolButton(this))),
+      scroll_(named("info.scroll", new QScrollArea(this))) {
   setObjectName("infoPanel");
-  title_->setObjectName("info.title");
   QFont bold = font();
   bold.setBold(true);
   title_->setFont(bold);
-  conventions_->setObjectName("info.conventions");
-  scroll_->setObjectName("info.scroll");
   scroll_->setFrameShape(QFrame::NoFrame);
   scroll_->setWidgetResizable(true);
   scroll_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   scroll_->viewport()->setAutoFillBackground(false);
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(4);
-  layout->addWidget(title_);
-  layout->addWidget(scroll_, 1);
+  auto* layout = make_column(this, {title_, {scroll_, 1}}, {.spacing = 4});
   layout->addWidget(conventions_, 0, Qt::AlignLeft);
   setInfo({}, {}, {});
 }
@@ -135,8 +125,7 @@ void InfoPanel::addWarning(const InfoWarning& warning, QAction* action, QGridLay
 QToolButton* InfoPanel::makeArrow(const QString& id, const QString& key, QLabel* value,
                                   const std::vector<QWidget*>& behind) {
   auto* folded = qobject_cast<FoldedLabel*>(value);
-  auto* arrow = new QToolButton(value->parentWidget());
-  arrow->setObjectName("info.more." + id);
+  auto* arrow = named("info.more." + id, new QToolButton(value->parentWidget()));
   arrow->setAutoRaise(true);
   arrow->setCheckable(true);
   arrow->setAccessibleName(tr("More on %1").arg(key));

@@ -8,7 +8,6 @@
 #include <QBoxLayout>
 #include <QDropEvent>
 #include <QHeaderView>
-#include <QLabel>
 #include <QLineEdit>
 #include <QMenu>
 #include <QMouseEvent>
@@ -31,9 +30,9 @@ int label_of(const QTreeWidgetItem* item) {
 
 LabelPalette::LabelPalette(QWidget* parent)
     : QWidget(parent),
-      filter_(new QLineEdit(this)),
-      tree_(new QTreeWidget(this)),
-      hint_(new QLabel(this)),
+      filter_(named("labels.filter", new QLineEdit(this))),
+      tree_(named("labels.tree", new QTreeWidget(this))),
+      hint_(named("labels.hint", new QLabel(this))),
       add_(make_tool_button({"labels.add", "add", tr("Add a label"), tr("Add")}, this)),
       rename_(make_tool_button({"labels.rename", "rename", tr("Rename this label"), tr("Rename")},
                                this)),
@@ -44,10 +43,8 @@ LabelPalette::LabelPalette(QWidget* parent)
   setObjectName("labelPalette");
   setUpTree();
   setUpActions();
-  hint_->setObjectName("labels.hint");
   hint_->setMargin(theme::kMargin);
   lay_out_list(this, hint_, tree_, {add_, rename_, remove_});
-  filter_->setObjectName("labels.filter");
   filter_->setPlaceholderText(tr("Filter by name or number"));
   filter_->setAccessibleName(tr("Filter of labels"));
   filter_->setClearButtonEnabled(true);
@@ -57,7 +54,6 @@ LabelPalette::LabelPalette(QWidget* parent)
 }
 
 void LabelPalette::setUpTree() {
-  tree_->setObjectName("labels.tree");
   tree_->setAccessibleName(tr("Labels"));
   tree_->viewport()->installEventFilter(this);
   tree_->setColumnCount(kLabelColumns);
@@ -89,8 +85,7 @@ void LabelPalette::setUpTree() {
 }
 
 void LabelPalette::setUpActions() {
-  auto* remove = new QAction(tree_);
-  remove->setObjectName("labels.removeAction");
+  auto* remove = named("labels.removeAction", new QAction(tree_));
   remove->setShortcut(QKeySequence::Delete);
   remove->setShortcutContext(Qt::WidgetShortcut);
   tree_->addAction(remove);
@@ -184,10 +179,6 @@ void LabelPalette::showMarks() {
   }
 }
 
-void LabelPalette::setHint(const QString& hint) {
-  hint_->setText(hint);
-}
-
 QTreeWidgetItem* LabelPalette::itemOf(int id) const {
   for (int i = 0; i < tree_->topLevelItemCount(); ++i) {
     if (label_of(tree_->topLevelItem(i)) == id) return tree_->topLevelItem(i);
@@ -271,8 +262,7 @@ void LabelPalette::showMenu(const QPoint& position) {
   const auto* item = tree_->itemAt(position);
   if (!item) return;
   const int id = label_of(item);
-  auto* menu = new QMenu(this);
-  menu->setObjectName("labels.menu");
+  auto* menu = named("labels.menu", new QMenu(this));
   menu->setAttribute(Qt::WA_DeleteOnClose);
   menu->addAction(themed_icon("rename"), tr("Rename"), this, [this, id] { editName(id); });
   menu->addAction(tr("Change color…"), this, [this, id] { emit colorRequested(id); });

@@ -3,7 +3,7 @@
 
 #include "engine/core/scene.h"
 
-#include <QColor>
+#include <QLabel>
 #include <QString>
 #include <QWidget>
 
@@ -12,7 +12,6 @@
 #include <set>
 #include <vector>
 
-class QLabel;
 class QLineEdit;
 class QToolButton;
 class QTreeWidget;
@@ -33,7 +32,6 @@ class LabelPalette : public QWidget {
   void setLabels(const std::vector<LabelInfo>& labels);
   /// 0 = none.
   void setCurrent(int id);
-  /// Ids of hidden labels, and of locked labels.
   void setHidden(const std::set<std::int32_t>& ids);
   void setLocked(const std::set<std::int32_t>& ids);
   /// Amount of a label: short for its row, long for its tool tip.
@@ -44,7 +42,7 @@ class LabelPalette : public QWidget {
   /// Amounts by id; labels without an entry have none.
   void setAmounts(const std::map<std::int32_t, Amount>& amounts);
   /// Text shown instead of an empty list.
-  void setHint(const QString& hint);
+  void setHint(const QString& hint) { hint_->setText(hint); }
   /// Begins to edit a label's name in its row.
   void editName(int id);
 

@@ -5,17 +5,14 @@
 #include "widgets/controls/tool_button.h"
 
 #include <QEvent>
-#include <QFontMetrics>
 #include <QGridLayout>
 #include <QHeaderView>
-#include <QLabel>
 #include <QLocale>
 #include <QMouseEvent>
 #include <QPainter>
 #include <QSignalBlocker>
 #include <QToolButton>
 #include <QTreeWidget>
-#include <QVBoxLayout>
 
 #include <algorithm>
 
@@ -51,8 +48,8 @@ QTreeWidgetItem* add_row(QTreeWidget* list, const QStringList& texts, int names)
 LabelReviewPanel::LabelReviewPanel(QWidget* parent)
     : QWidget(parent),
       actions_(new QGridLayout),
-      note_(new QLabel(this)),
-      pieces_title_(new QLabel(this)),
+      note_(named("check.note", new QLabel(this))),
+      pieces_title_(named("check.piecesTitle", new QLabel(this))),
       doubts_(makeList("check.doubts", tr("Regions in doubt"),
                        {tr("Label"), tr("or perhaps"), tr("Pixels")})),
       labels_(makeList("check.labels", tr("Labels of this view"),
@@ -61,10 +58,8 @@ LabelReviewPanel::LabelReviewPanel(QWidget* parent)
       pieces_(makeList("check.pieces", tr("Islands and holes"),
                        {tr("Kind"), tr("Label"), tr("Pixels")})) {
   setObjectName("checkPanel");
-  note_->setObjectName("check.note");
   note_->setTextFormat(Qt::PlainText);
   note_->setWordWrap(true);
-  pieces_title_->setObjectName("check.piecesTitle");
   pieces_title_->setTextFormat(Qt::PlainText);
   actions_->setSpacing(2);
   actions_->setColumnStretch(kActionColumns, 1);
@@ -72,17 +67,16 @@ LabelReviewPanel::LabelReviewPanel(QWidget* parent)
   pieces_->header()->setSectionResizeMode(0, QHeaderView::ResizeToContents);
   pieces_->header()->setSectionResizeMode(1, QHeaderView::Stretch);
   labels_->viewport()->installEventFilter(this);
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, theme::kSpacing, 0, 0);
-  layout->setSpacing(4);
-  layout->addLayout(actions_);
-  layout->addWidget(note_);
-  layout->addWidget(new QLabel(tr("Where a stroke would help most"), this));
-  layout->addWidget(doubts_, 2);
-  layout->addWidget(new QLabel(tr("Labels of this view"), this));
-  layout->addWidget(labels_, 3);
-  layout->addWidget(pieces_title_);
-  layout->addWidget(pieces_, 2);
+  make_column(this,
+              {actions_,
+               note_,
+               new QLabel(tr("Where a stroke would help most"), this),
+               {doubts_, 2},
+               new QLabel(tr("Labels of this view"), this),
+               {labels_, 3},
+               pieces_title_,
+               {pieces_, 2}},
+              {.margins = {0, theme::kSpacing, 0, 0}, .spacing = 4});
   const auto row_of = [](QTreeWidget* list, QTreeWidgetItem* item) {
     return list->indexOfTopLevelItem(item);
   };
@@ -97,8 +91,7 @@ LabelReviewPanel::LabelReviewPanel(QWidget* parent)
 
 QTreeWidget* LabelReviewPanel::makeList(const QString& name, const QString& title,
                                         const QStringList& columns) {
-  auto* list = new QTreeWidget(this);
-  list->setObjectName(name);
+  auto* list = named(name, new QTreeWidget(this));
   list->setAccessibleName(title);
   list->setHeaderLabels(columns);
   list->setRootIsDecorated(false);
@@ -191,10 +184,6 @@ void LabelReviewPanel::setPieces(const QString& title, const std::vector<Piece>&
     auto* item = add_row(pieces_, {piece.kind, name_of(piece.label), count_text(piece.pixels)}, 2);
     item->setIcon(1, swatch(piece.label.color, palette()));
   }
-}
-
-QString LabelReviewPanel::note() const {
-  return note_->text();
 }
 
 namespace {

@@ -6,6 +6,7 @@
 
 #include <QColor>
 #include <QImage>
+#include <QLabel>
 #include <QString>
 #include <QWidget>
 
@@ -14,7 +15,6 @@
 
 class QAction;
 class QGridLayout;
-class QLabel;
 class QTreeWidget;
 
 namespace episcope {
@@ -31,7 +31,6 @@ class LabelReviewPanel : public QWidget {
     LabelInfo rival;
     int pixels = 0;
   };
-  /// A label of the view, as text.
   struct Row {
     LabelInfo label;
     std::int64_t pixels = 0;
@@ -61,7 +60,7 @@ class LabelReviewPanel : public QWidget {
   void setCurrentDoubt(int index);
   void setRows(const std::vector<Row>& rows, int current_label);
   void setPieces(const QString& title, const std::vector<Piece>& pieces);
-  [[nodiscard]] QString note() const;
+  [[nodiscard]] QString note() const { return note_->text(); }
 
  signals:
   void doubtChosen(int index);

@@ -7,7 +7,6 @@
 #include <QAction>
 #include <QBoxLayout>
 #include <QHeaderView>
-#include <QLabel>
 #include <QSignalBlocker>
 #include <QToolButton>
 #include <QTreeWidget>
@@ -16,13 +15,6 @@ namespace episcope {
 namespace {
 
 enum MeasureColumn { kLineName, kDisparity, kDepth, kPlace };
-
-QBoxLayout* make_row() {
-  auto* row = new QHBoxLayout;
-  row->setSpacing(2);
-  row->addStretch(1);
-  return row;
-}
 
 void add_button(QBoxLayout* row, QAction* action, QWidget* parent) {
   row->insertWidget(row->count() - 1,
@@ -33,30 +25,23 @@ void add_button(QBoxLayout* row, QAction* action, QWidget* parent) {
 
 MeasurePanel::MeasurePanel(QWidget* parent)
     : QWidget(parent),
-      actions_(make_row()),
-      list_(new QTreeWidget(this)),
-      hint_(new QLabel(this)),
+      actions_(make_row({kRoom}, {.spacing = 2})),
+      list_(named("measure.list", new QTreeWidget(this))),
+      hint_(named("measure.hint", new QLabel(this))),
       chosen_actions_(new QVBoxLayout) {
   setObjectName("measurePanel");
   setUpList();
-  hint_->setObjectName("measure.hint");
   hint_->setTextFormat(Qt::PlainText);
   hint_->setAlignment(Qt::AlignCenter);
   hint_->setWordWrap(true);
   hint_->setMargin(theme::kMargin);
   chosen_actions_->setSpacing(2);
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, theme::kSpacing, 0, theme::kSpacing);
-  layout->setSpacing(4);
-  layout->addLayout(actions_);
-  layout->addWidget(hint_, 1);
-  layout->addWidget(list_, 1);
-  layout->addLayout(chosen_actions_);
+  make_column(this, {actions_, {hint_, 1}, {list_, 1}, chosen_actions_},
+              {.margins = {0, theme::kSpacing, 0, theme::kSpacing}, .spacing = 4});
   setRows({}, -1);
 }
 
 void MeasurePanel::setUpList() {
-  list_->setObjectName("measure.list");
   list_->setAccessibleName(tr("Measured lines"));
   list_->setHeaderLabels({tr("Name"), tr("Disparity"), tr("Depth"), tr("Place")});
   list_->setRootIsDecorated(false);
@@ -122,10 +107,6 @@ void MeasurePanel::setRows(const std::vector<Row>& rows, int current) {
   list_->setCurrentItem(current < 0 ? nullptr : list_->topLevelItem(current));
   list_->setVisible(!rows.empty());
   hint_->setVisible(rows.empty());
-}
-
-void MeasurePanel::setHint(const QString& hint) {
-  hint_->setText(hint);
 }
 
 void MeasurePanel::editName(int index) {

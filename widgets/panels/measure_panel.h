@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <QLabel>
 #include <QString>
 #include <QWidget>
 
@@ -8,7 +9,6 @@
 
 class QAction;
 class QBoxLayout;
-class QLabel;
 class QTreeWidget;
 
 namespace episcope {
@@ -36,7 +36,7 @@ class MeasurePanel : public QWidget {
   void addChosenAction(QAction* action);
   void setRows(const std::vector<Row>& rows, int current);
   /// Text shown without measurements.
-  void setHint(const QString& hint);
+  void setHint(const QString& hint) { hint_->setText(hint); }
   /// Begins to edit a measurement's name in its row.
   void editName(int index);
 

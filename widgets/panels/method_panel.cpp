@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/panels/method_panel.h"
 
-#include "widgets/controls/labels.h"
-#include "widgets/controls/parameter_form.h"
 #include "widgets/controls/text.h"
 #include "widgets/controls/theme.h"
 #include "widgets/controls/tool_button.h"
@@ -15,7 +13,6 @@
 #include <QGridLayout>
 #include <QLabel>
 #include <QListWidget>
-#include <QPushButton>
 #include <QScrollArea>
 #include <QScrollBar>
 #include <QSignalBlocker>
@@ -28,8 +25,7 @@ constexpr int kListWidth = 560;  // names and what the methods do
 
 QPushButton* make_button(const char* name, const char* icon, const QString& text,
                          const QString& tip, QWidget* parent) {
-  auto* button = new QPushButton(themed_icon(icon), text, parent);
-  button->setObjectName(name);
+  auto* button = named(name, new QPushButton(themed_icon(icon), text, parent));
   button->setToolTip(tip);
   return button;
 }
@@ -38,13 +34,13 @@ QPushButton* make_button(const char* name, const char* icon, const QString& text
 
 MethodPanel::MethodPanel(QWidget* parent)
     : QWidget(parent),
-      method_(new QComboBox(this)),
-      summary_(new QLabel(this)),
-      reference_(new QLabel(this)),
+      method_(named("method.combo", new QComboBox(this))),
+      summary_(named("method.summary", new QLabel(this))),
+      reference_(named("method.reference", new QLabel(this))),
       form_(new ParameterForm),
-      scroll_(new QScrollArea(this)),
-      all_views_(new QCheckBox(tr("All views"), this)),
-      live_status_(new ElidedLabel(this)),
+      scroll_(named("method.scroll", new QScrollArea(this))),
+      all_views_(named("method.allViews", new QCheckBox(tr("All views"), this))),
+      live_status_(named("method.liveStatus", new ElidedLabel(this))),
       run_(make_button("method.run", "run", tr("Run"), tr("Estimate with these parameters"), this)),
       live_(make_button("method.live", "live", tr("Live"), {}, this)),
       cancel_(make_button("method.cancel", "stop", tr("Cancel"), tr("Cancel all runs"), this)),
@@ -53,31 +49,22 @@ MethodPanel::MethodPanel(QWidget* parent)
       copy_(make_button("method.copyCommand", "copy", tr("Copy as command"),
                         tr("Copy the equivalent episcope-cli command"), this)) {
   setObjectName("methodPanel");
-  method_->setObjectName("method.combo");
   method_->setToolTip(tr("Estimation method"));
   method_->setItemDelegate(new AsideDelegate(AsideDelegate::Place::Column, method_));
   method_->view()->setMinimumWidth(kListWidth);
-  summary_->setObjectName("method.summary");
   summary_->setWordWrap(true);
-  reference_->setObjectName("method.reference");
   reference_->setWordWrap(true);
   reference_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-  all_views_->setObjectName("method.allViews");
   all_views_->setToolTip(tr("Estimate all views instead of the center view only"));
   live_->setCheckable(true);
-  live_status_->setObjectName("method.liveStatus");
   live_status_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
   run_->setDefault(true);
 
-  scroll_->setObjectName("method.scroll");
   scroll_->setFrameShape(QFrame::NoFrame);
   scroll_->setWidgetResizable(true);
   scroll_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   auto* sheet = new QWidget(scroll_);
-  auto* sheet_layout = new QVBoxLayout(sheet);
-  sheet_layout->setContentsMargins(0, 0, 0, 0);
-  sheet_layout->addWidget(form_);
-  sheet_layout->addStretch(1);
+  make_column(sheet, {form_, kRoom});
   scroll_->setWidget(sheet);
   // The tab shines through.
   scroll_->viewport()->setAutoFillBackground(false);
@@ -105,18 +92,12 @@ MethodPanel::MethodPanel(QWidget* parent)
 }
 
 QBoxLayout* MethodPanel::layViews() {
-  auto* row = new QHBoxLayout;
-  row->setSpacing(theme::kSpacing);
-  row->addWidget(all_views_);
-  row->addWidget(live_status_, 1);
+  auto* row = make_row({all_views_, {live_status_, 1}}, {.spacing = theme::kSpacing});
   return row;
 }
 
 QBoxLayout* MethodPanel::layRun() {
-  auto* row = new QHBoxLayout;
-  row->setSpacing(theme::kSpacing);
-  row->addWidget(run_, 1);
-  row->addWidget(live_);
+  auto* row = make_row({{run_, 1}, live_}, {.spacing = theme::kSpacing});
   return row;
 }
 
@@ -179,10 +160,6 @@ void MethodPanel::showMethod(int index) {
   setRunBlocked(blocked_);
 }
 
-void MethodPanel::updateReset() {
-  reset_->setEnabled(!form_->modifiedValues().empty());
-}
-
 void MethodPanel::setCurrentMethod(const std::string& id) {
   const int index = method_->findData(QString::fromStdString(id));
   if (index >= 0) method_->setCurrentIndex(index);
@@ -198,24 +175,12 @@ void MethodPanel::setRequest(const RunRequest& request) {
   emit requestChanged();
 }
 
-void MethodPanel::setRunning(bool running) {
-  cancel_->setEnabled(running);
-}
-
 void MethodPanel::setRunBlocked(const QString& reason) {
   blocked_ = reason;
   run_->setEnabled(reason.isEmpty() && shown_ >= 0);
   copy_->setEnabled(run_->isEnabled());
   live_->setEnabled(run_->isEnabled() || live_->isChecked());
   run_->setToolTip(reason.isEmpty() ? tr("Estimate with these parameters") : reason);
-}
-
-void MethodPanel::setLive(bool is_live) {
-  live_->setChecked(is_live);
-}
-
-void MethodPanel::setLiveStatus(const QString& text) {
-  live_status_->setFullText(text);
 }
 
 void MethodPanel::followLiveTip(const QAction* live) {
@@ -299,8 +264,7 @@ BatchDialog::BatchDialog(const std::vector<Row>& methods, const std::vector<Row>
 
 QListWidget* BatchDialog::addList(const QString& name, const QString& title,
                                   const std::vector<Row>& rows) {
-  auto* list = new QListWidget(this);
-  list->setObjectName(name);
+  auto* list = named(name, new QListWidget(this));
   list->setAccessibleName(title);
   list->setTextElideMode(Qt::ElideMiddle);
   list->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);

@@ -2,8 +2,11 @@
 #pragma once
 
 #include "engine/core/parameter.h"
+#include "widgets/controls/labels.h"
+#include "widgets/controls/parameter_form.h"
 
 #include <QDialog>
+#include <QPushButton>
 #include <QString>
 #include <QWidget>
 
@@ -17,15 +20,10 @@ class QCheckBox;
 class QComboBox;
 class QLabel;
 class QListWidget;
-class QPushButton;
 class QScrollArea;
 
 namespace episcope {
 
-class ElidedLabel;
-class ParameterForm;
-
-/// Description of a method for the panel.
 struct MethodDescription {
   std::string id;
   std::string name;
@@ -57,13 +55,13 @@ class MethodPanel : public QWidget {
   /// Sets method, parameters and views, e.g. from an earlier result.
   void setRequest(const RunRequest& request);
   /// Enables Cancel while running; Run stays enabled and queues.
-  void setRunning(bool running);
+  void setRunning(bool running) { cancel_->setEnabled(running); }
   /// Disables Run and shows the reason as its tool tip; an empty reason enables it.
   void setRunBlocked(const QString& reason);
   /// Whether every change of the request runs at once.
-  void setLive(bool is_live);
+  void setLive(bool is_live) { live_->setChecked(is_live); }
   /// State of the live estimate in a few words, which never take room from other controls.
-  void setLiveStatus(const QString& text);
+  void setLiveStatus(const QString& text) { live_status_->setFullText(text); }
   /// Keeps the buttons' tool tips equal to their commands', including keys.
   void followTips(const QAction* cancel, const QAction* copy);
   void followLiveTip(const QAction* live);
@@ -93,7 +91,7 @@ class MethodPanel : public QWidget {
   [[nodiscard]] QBoxLayout* layRun();
   void connectControls();
   void showMethod(int index);
-  void updateReset();
+  void updateReset() { reset_->setEnabled(!form_->modifiedValues().empty()); }
   void updateColors();
 
   std::vector<MethodDescription> methods_;

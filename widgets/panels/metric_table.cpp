@@ -11,7 +11,6 @@
 #include <QEvent>
 #include <QGuiApplication>
 #include <QHeaderView>
-#include <QLabel>
 #include <QLocale>
 #include <QMenu>
 #include <QTableWidget>
@@ -66,9 +65,10 @@ QString full_text(const QVariant& value) {
 
 MetricTable::MetricTable(QWidget* parent)
     : QWidget(parent),
-      table_(new QTableWidget(this)),
-      empty_(
-          new QLabel(tr("Metrics appear here once there is a result and a ground truth."), this)),
+      table_(named("metrics.table", new QTableWidget(this))),
+      empty_(named(
+          "metrics.empty",
+          new QLabel(tr("Metrics appear here once there is a result and a ground truth."), this))),
       copy_csv_(make_tool_button({"metrics.copyCsv", "copy", tr("Copy as CSV (Ctrl+C)"), tr("CSV")},
                                  this)),
       copy_latex_(
@@ -76,7 +76,6 @@ MetricTable::MetricTable(QWidget* parent)
       save_(make_tool_button({"metrics.save", "export", tr("Save as CSV or LaTeX"), tr("Save…")},
                              this)) {
   setObjectName("metricTable");
-  empty_->setObjectName("metrics.empty");
   setUpTable();
   auto* menu = new QMenu(save_);
   menu->addAction(tr("CSV…"), this, [this] { emit saveRequested("csv", toCsv()); });
@@ -91,7 +90,6 @@ MetricTable::MetricTable(QWidget* parent)
 }
 
 void MetricTable::setUpTable() {
-  table_->setObjectName("metrics.table");
   table_->setAccessibleName(tr("Metrics of all results"));
   table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
@@ -201,10 +199,6 @@ void MetricTable::fillRow(int row, const MetricRow& values) {
   }
 }
 
-void MetricTable::setEmptyText(const QString& text) {
-  empty_->setText(text);
-}
-
 void MetricTable::setSides(quint64 a, quint64 b) {
   for (int row = 0; row < table_->rowCount(); ++row) {
     QTableWidgetItem* item = table_->item(row, 0);
@@ -247,8 +241,7 @@ void MetricTable::stressBest() {
 }
 
 void MetricTable::showMenu(const QPoint& position) {
-  auto* menu = new QMenu(this);
-  menu->setObjectName("metrics.menu");
+  auto* menu = named("metrics.menu", new QMenu(this));
   menu->setAttribute(Qt::WA_DeleteOnClose);
   menu->addAction(themed_icon("copy"), tr("Copy as CSV"), this, &MetricTable::copyCsv);
   menu->addAction(themed_icon("copy"), tr("Copy as LaTeX"), this, &MetricTable::copyLatex);

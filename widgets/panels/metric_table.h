@@ -2,21 +2,19 @@
 #pragma once
 
 #include <QHash>
+#include <QLabel>
 #include <QString>
-#include <QStringList>
 #include <QVariant>
 #include <QWidget>
 
 #include <vector>
 
-class QLabel;
 class QMenu;
 class QTableWidget;
 class QToolButton;
 
 namespace episcope {
 
-/// Best value of a column.
 enum class BestValue { None, Least, Greatest };
 
 struct MetricColumn {
@@ -49,7 +47,7 @@ class MetricTable : public QWidget {
   /// Costs nothing without changes.
   void setTable(const std::vector<MetricColumn>& columns, const std::vector<MetricRow>& rows);
   /// Why the table is empty, e.g. no ground truth.
-  void setEmptyText(const QString& text);
+  void setEmptyText(const QString& text) { empty_->setText(text); }
   /// Marks the rows of the shown and the compared result; 0 = none.
   void setSides(quint64 a, quint64 b);
 

@@ -2,12 +2,11 @@
 #include "widgets/panels/movie_panel.h"
 
 #include "widgets/controls/number_spin.h"
+#include "widgets/controls/tool_button.h"
 
-#include <QCheckBox>
 #include <QComboBox>
 #include <QDialogButtonBox>
 #include <QFormLayout>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
 #include <QSpinBox>
@@ -25,19 +24,18 @@ constexpr double kFarthestFocus_px = 20;
 
 MoviePanel::MoviePanel(QWidget* parent)
     : QWidget(parent),
-      kind_(new QComboBox(this)),
-      path_(new QComboBox(this)),
-      nearest_(new NumberSpin(this)),
-      farthest_(new NumberSpin(this)),
-      seconds_(new NumberSpin(this)),
-      width_(new QSpinBox(this)),
-      overlay_(new QCheckBox(tr("With the overlay of the view"), this)) {
+      kind_(named("movie.kind", new QComboBox(this))),
+      path_(named("movie.path", new QComboBox(this))),
+      nearest_(named("movie.focusTo", new NumberSpin(this))),
+      farthest_(named("movie.focusFrom", new NumberSpin(this))),
+      seconds_(named("movie.seconds", new NumberSpin(this))),
+      width_(named("movie.width", new QSpinBox(this))),
+      overlay_(named("movie.overlay", new QCheckBox(tr("With the overlay of the view"), this))) {
   setObjectName("moviePanel");
   auto* form = new QFormLayout(this);
   addKinds(*form);
   addFocus(*form);
   addSizes(*form);
-  overlay_->setObjectName("movie.overlay");
   overlay_->setChecked(true);
   form->addRow(QString(), overlay_);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
@@ -53,11 +51,9 @@ MoviePanel::MoviePanel(QWidget* parent)
 }
 
 void MoviePanel::addKinds(QFormLayout& form) {
-  kind_->setObjectName("movie.kind");
   kind_->addItem(tr("Parallax: the view moves"), static_cast<int>(MovieKind::Parallax));
   kind_->addItem(tr("Refocusing: the focus plane moves"), static_cast<int>(MovieKind::Refocus));
   kind_->addItem(tr("Flip: A and B alternate"), static_cast<int>(MovieKind::Flip));
-  path_->setObjectName("movie.path");
   path_->addItem(tr("Around the center"), static_cast<int>(CameraPath::Circle));
   path_->addItem(tr("Along the row of the center"), static_cast<int>(CameraPath::Swing));
   path_->addItem(tr("Through all views"), static_cast<int>(CameraPath::Snake));
@@ -66,10 +62,8 @@ void MoviePanel::addKinds(QFormLayout& form) {
 }
 
 void MoviePanel::addFocus(QFormLayout& form) {
-  farthest_->setObjectName("movie.focusFrom");
   farthest_->setAccessibleName(tr("Focus from"));
   nearest_->setAccessibleName(tr("Focus to"));
-  nearest_->setObjectName("movie.focusTo");
   for (NumberSpin* each : {farthest_, nearest_}) {
     each->setDecimals(2);
     each->setSingleStep(0.1);
@@ -78,20 +72,15 @@ void MoviePanel::addFocus(QFormLayout& form) {
     each->setToolTip(tr("Disparity in focus at one end of the movement"));
   }
   nearest_->setAccessibleName(tr("Focus to"));
-  auto* row = new QHBoxLayout;
-  row->addWidget(farthest_, 1);
-  row->addWidget(new QLabel(tr("to"), this));
-  row->addWidget(nearest_, 1);
+  auto* row = make_row({{farthest_, 1}, new QLabel(tr("to"), this), {nearest_, 1}});
   form.addRow(tr("Focus from"), row);
 }
 
 void MoviePanel::addSizes(QFormLayout& form) {
-  seconds_->setObjectName("movie.seconds");
   seconds_->setDecimals(1);
   seconds_->setRange(render::kMovieSeconds.min, render::kMovieSeconds.max);
   seconds_->setSuffix(tr(" s"));
   seconds_->setValue(render::MovieChoice().seconds);
-  width_->setObjectName("movie.width");
   width_->setRange(0, render::kWidestMovie_px);
   width_->setSingleStep(64);
   width_->setSuffix(tr(" px"));
@@ -125,10 +114,6 @@ render::MovieChoice MoviePanel::choice() const {
           .focus_px = {farthest_->value(), nearest_->value()},
           .seconds = seconds_->value(),
           .width_px = width_->value()};
-}
-
-bool MoviePanel::showsOverlay() const {
-  return overlay_->isEnabled() && overlay_->isChecked();
 }
 
 void MoviePanel::adapt() {

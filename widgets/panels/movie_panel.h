@@ -3,11 +3,11 @@
 
 #include "engine/render/movie.h"
 
+#include <QCheckBox>
 #include <QWidget>
 
 #include <set>
 
-class QCheckBox;
 class QComboBox;
 class QFormLayout;
 class QSpinBox;
@@ -30,7 +30,7 @@ class MoviePanel : public QWidget {
   void setOverlayAvailable(bool is_available);
   void setFocusRange(Interval range_px);
   [[nodiscard]] render::MovieChoice choice() const;
-  [[nodiscard]] bool showsOverlay() const;
+  [[nodiscard]] bool showsOverlay() const { return overlay_->isEnabled() && overlay_->isChecked(); }
 
  signals:
   void saveRequested();

@@ -1,20 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/panels/overlay_bar.h"
 
-#include "widgets/controls/labels.h"
-#include "widgets/controls/number_spin.h"
 #include "widgets/controls/text.h"
 #include "widgets/controls/theme.h"
 #include "widgets/controls/tool_button.h"
 
 #include <QAction>
-#include <QComboBox>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QSignalBlocker>
-#include <QSlider>
 #include <QToolButton>
-#include <QVBoxLayout>
 
 #include <algorithm>
 #include <cmath>
@@ -37,30 +32,26 @@ int focus_step(double focus_px) {
 
 OverlayBar::OverlayBar(QWidget* parent)
     : QWidget(parent),
-      quantity_(new QComboBox(this)),
-      opacity_(new QSlider(Qt::Horizontal, this)),
-      focus_slider_(new QSlider(Qt::Horizontal, this)),
-      focus_spin_(new NumberSpin(this)),
+      quantity_(named("overlay.quantity", new QComboBox(this))),
+      opacity_(named("overlay.opacity", new QSlider(Qt::Horizontal, this))),
+      focus_slider_(named("overlay.focusSlider", new QSlider(Qt::Horizontal, this))),
+      focus_spin_(named("overlay.focusSpin", new NumberSpin(this))),
       row_(new QHBoxLayout(this)) {
   setObjectName("overlayBar");
-  quantity_->setObjectName("overlay.quantity");
   quantity_->setAccessibleName(tr("Map over the view"));
   quantity_->setToolTip(tr("Map over the view (M: next)"));
   quantity_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
   quantity_->setMaxVisibleItems(kMostQuantities);
-  opacity_->setObjectName("overlay.opacity");
   opacity_->setRange(0, 100);
   opacity_->setMinimumWidth(30);
   opacity_->setMaximumWidth(70);
   opacity_->setToolTip(tr("Opacity of the overlay"));
-  focus_slider_->setObjectName("overlay.focusSlider");
   focus_slider_->setMinimumWidth(34);
   focus_slider_->setMaximumWidth(220);
   focus_slider_->setToolTip(
       tr("Focus plane: shears EPIs and view so that this disparity appears as zero (Alt+wheel, "
          "Ctrl+wheel, "
          "Shift+click)"));
-  focus_spin_->setObjectName("overlay.focusSpin");
   focus_spin_->setAccessibleName(tr("Focus plane"));
   focus_spin_->setDecimals(2);
   focus_spin_->setSingleStep(0.05);
@@ -169,28 +160,16 @@ Quantity OverlayBar::quantity() const {
   return static_cast<Quantity>(quantity_->currentData().toInt());
 }
 
-double OverlayBar::opacity() const {
-  return opacity_->value() / 100.0;
-}
-double OverlayBar::focus() const {
-  return focus_spin_->value();
-}
-
 void OverlayBar::selectNextQuantity() {
   const int next = (quantity_->currentIndex() + 1) % quantity_->count();
   setQuantity(listed_[static_cast<std::size_t>(next)]);
   emit quantitySelected(quantity());
 }
 
-void OverlayBar::stepFocus(double steps) {
-  changeFocus(focus() + steps * focus_spin_->singleStep());
-}
-
 namespace {
 
 QComboBox* make_combo(const char* name, const QString& tip, QWidget* parent) {
-  auto* combo = new QComboBox(parent);
-  combo->setObjectName(name);
+  auto* combo = named(name, new QComboBox(parent));
   combo->setToolTip(tip);
   combo->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
   combo->setMinimumWidth(90);
@@ -230,19 +209,12 @@ CompareBar::CompareBar(QWidget* parent)
   maps_->addWidget(new QLabel(tr("Map"), this));
   maps_->addStretch(1);
   buttons_->setSpacing(2);
-  auto* row = new QHBoxLayout;
-  row->setSpacing(theme::kSpacing);
-  row->addWidget(make_badge(Side::A, this));
-  row->addWidget(a_, 1);
+  auto* row = make_row({make_badge(Side::A, this), {a_, 1}}, {.spacing = theme::kSpacing});
   row->addSpacing(theme::kSpacing);
   row->addWidget(make_badge(Side::B, this));
   row->addWidget(b_, 1);
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, theme::kSpacing, 0, 0);
-  layout->setSpacing(theme::kSpacing);
-  layout->addLayout(row);
-  layout->addLayout(maps_);
-  layout->addLayout(buttons_);
+  make_column(this, {row, maps_, buttons_},
+              {.margins = {0, theme::kSpacing, 0, 0}, .spacing = theme::kSpacing});
   buttons_->addStretch(1);
   connect(a_, &QComboBox::activated, this,
           [this] { emit aChosen(a_->currentData().toULongLong()); });
@@ -268,14 +240,12 @@ void CompareBar::setChoices(const std::vector<Choice>& choices, quint64 a, quint
 
 RegionBar::RegionBar(QWidget* parent)
     : QWidget(parent),
-      part_(new QComboBox(this)),
-      summary_(new ElidedLabel(this)),
+      part_(named("region.part", new QComboBox(this))),
+      summary_(named("region.summary", new ElidedLabel(this))),
       layout_(new QHBoxLayout(this)) {
   setObjectName("regionBar");
-  part_->setObjectName("region.part");
   part_->setToolTip(tr("Pixels that the table and the plot evaluate"));
   part_->setAccessibleName(tr("Part of the view to evaluate on"));
-  summary_->setObjectName("region.summary");
   auto* label = new QLabel(tr("Evaluate on:"), this);
   label->setBuddy(part_);
   layout_->setContentsMargins(0, theme::kSpacing, 0, 0);
@@ -295,18 +265,6 @@ void RegionBar::setParts(const QStringList& names) {
   part_->clear();
   part_->addItems(names);
   part_->setCurrentIndex(current);
-}
-
-void RegionBar::setCurrent(int part) {
-  part_->setCurrentIndex(part);
-}
-
-void RegionBar::setSummary(const QString& text) {
-  summary_->setFullText(text);
-}
-
-QString RegionBar::summary() const {
-  return summary_->fullText();
 }
 
 }  // namespace episcope

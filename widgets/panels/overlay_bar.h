@@ -3,21 +3,20 @@
 
 #include "engine/core/indices.h"
 #include "engine/render/quantity.h"
+#include "widgets/controls/labels.h"
+#include "widgets/controls/number_spin.h"
 
+#include <QComboBox>
+#include <QSlider>
 #include <QString>
 #include <QWidget>
 
 #include <vector>
 
 class QAction;
-class QComboBox;
 class QHBoxLayout;
-class QLabel;
-class QSlider;
 
 namespace episcope {
-
-class NumberSpin;
 
 /// A row of controls for the tool bar: map, opacity and focus plane (shear). Setters never emit.
 class OverlayBar : public QWidget {
@@ -43,14 +42,14 @@ class OverlayBar : public QWidget {
   void addFocusAction(QAction* action);
 
   [[nodiscard]] render::Quantity quantity() const;
-  [[nodiscard]] double opacity() const;
-  [[nodiscard]] double focus() const;
+  [[nodiscard]] double opacity() const { return opacity_->value() / 100.0; }
+  [[nodiscard]] double focus() const { return focus_spin_->value(); }
 
  public slots:
   /// Selects the next available quantity, like the user ("next metric map").
   void selectNextQuantity();
   /// Moves the focus plane by slider steps, like the user.
-  void stepFocus(double steps);
+  void stepFocus(double steps) { changeFocus(focus() + steps * focus_spin_->singleStep()); }
 
  signals:
   void quantitySelected(episcope::render::Quantity quantity);
@@ -72,8 +71,6 @@ class OverlayBar : public QWidget {
 }  // namespace episcope
 
 namespace episcope {
-
-class ElidedLabel;
 
 /// Chooses A (shown) and B (compared), with buttons for actions on both. Setters never emit.
 class CompareBar : public QWidget {
@@ -112,14 +109,13 @@ class RegionBar : public QWidget {
  public:
   explicit RegionBar(QWidget* parent = nullptr);
 
-  /// Adds a button for the action.
   void addAction(QAction* action, const QString& object_name);
   /// Available regions, in order.
   void setParts(const QStringList& names);
-  void setCurrent(int part);
+  void setCurrent(int part) { part_->setCurrentIndex(part); }
   /// "1 024 px", or why nothing is evaluated.
-  void setSummary(const QString& text);
-  [[nodiscard]] QString summary() const;
+  void setSummary(const QString& text) { summary_->setFullText(text); }
+  [[nodiscard]] QString summary() const { return summary_->fullText(); }
 
  signals:
   void partChosen(int part);

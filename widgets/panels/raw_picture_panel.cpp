@@ -4,18 +4,17 @@
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/controls/labels.h"
 #include "widgets/controls/theme.h"
+#include "widgets/controls/tool_button.h"
 
 #include <QCheckBox>
 #include <QComboBox>
 #include <QGridLayout>
-#include <QHBoxLayout>
 #include <QLineF>
 #include <QList>
 #include <QMenu>
 #include <QPainter>
 #include <QPushButton>
 #include <QSignalBlocker>
-#include <QVBoxLayout>
 
 #include <algorithm>
 #include <utility>
@@ -89,31 +88,22 @@ RawPicturePanel::RawPicturePanel(const QStringList& mosaics, QWidget* parent)
       white_button_(new QPushButton(tr("White picture"), this)),
       find_(new QPushButton(tr("Find lenses"), this)),
       decode_(new QPushButton(tr("Decode…"), this)),
-      shown_(new QComboBox(this)),
-      marks_(new QCheckBox(tr("Lens centers"), this)),
-      canvas_(new RawCanvas(this)) {
+      shown_(named("raw.shown", new QComboBox(this))),
+      marks_(named("raw.marks", new QCheckBox(tr("Lens centers"), this))),
+      canvas_(named("raw.canvas", new RawCanvas(this))) {
   setObjectName("rawPicturePanel");
-  shown_->setObjectName("raw.shown");
   shown_->setAccessibleName(tr("Shown picture"));
-  marks_->setObjectName("raw.marks");
   marks_->setToolTip(tr("Marks the center of each lens; enlarge the picture with the wheel"));
   marks_->setChecked(true);
-  canvas_->setObjectName("raw.canvas");
   canvas_->setEmptyHint(
       tr("Open a raw picture of a plenoptic camera: .lfp, .lfr, .raw, or the "
          "picture of a sensor behind microlenses."));
   canvas_->setParallaxEnabled(false);
   makeRawMenu(mosaics);
   makeWhiteMenu();
-  auto* choice = new QHBoxLayout;
-  choice->addWidget(shown_, 1);
-  choice->addWidget(marks_);
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, theme::kSpacing, 0, 0);
-  layout->setSpacing(theme::kSpacing);
-  layout->addLayout(makeSteps());
-  layout->addLayout(choice);
-  layout->addWidget(canvas_, 1);
+  auto* choice = make_row({{shown_, 1}, marks_});
+  make_column(this, {makeSteps(), choice, {canvas_, 1}},
+              {.margins = {0, theme::kSpacing, 0, 0}, .spacing = theme::kSpacing});
   connect(find_, &QPushButton::clicked, this, &RawPicturePanel::lensesRequested);
   connect(decode_, &QPushButton::clicked, this, &RawPicturePanel::decodeRequested);
   connect(shown_, &QComboBox::activated, this, &RawPicturePanel::showPicture);

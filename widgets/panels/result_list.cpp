@@ -40,8 +40,8 @@ QString seconds_text(double seconds) {
 
 ResultList::ResultList(QWidget* parent)
     : QWidget(parent),
-      tree_(new QTreeWidget(this)),
-      hint_(new QLabel(this)),
+      tree_(named("results.tree", new QTreeWidget(this))),
+      hint_(named("results.hint", new QLabel(this))),
       export_(make_tool_button({"results.export", "export",
                                 tr("Save this result as HDF5, PFM, TIFF or PLY"), tr("Export")},
                                this)),
@@ -52,7 +52,6 @@ ResultList::ResultList(QWidget* parent)
                               this)) {
   setObjectName("resultList");
   setUpTree();
-  hint_->setObjectName("results.hint");
   lay_out_list(this, hint_, tree_, {export_, reuse_, remove_});
 
   const auto connect_button = [this](QToolButton* button, void (ResultList::*intent)(quint64)) {
@@ -87,7 +86,6 @@ void ResultList::setUpColumns() {
 }
 
 void ResultList::setUpTree() {
-  tree_->setObjectName("results.tree");
   tree_->setAccessibleName(tr("Results"));
   tree_->viewport()->installEventFilter(this);
   setUpColumns();
@@ -97,8 +95,7 @@ void ResultList::setUpTree() {
   tree_->setTextElideMode(Qt::ElideRight);
   tree_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   tree_->setContextMenuPolicy(Qt::CustomContextMenu);
-  auto* remove = new QAction(tr("Remove"), tree_);
-  remove->setObjectName("results.removeAction");
+  auto* remove = named("results.removeAction", new QAction(tr("Remove"), tree_));
   remove->setShortcut(QKeySequence::Delete);
   remove->setShortcutContext(Qt::WidgetShortcut);
   tree_->addAction(remove);
@@ -266,8 +263,7 @@ void ResultList::showMenu(const QPoint& position) {
   const auto* item = tree_->itemAt(position);
   if (!item || result_of(item) == kLiveResult) return;
   const quint64 id = result_of(item);
-  auto* menu = new QMenu(this);
-  menu->setObjectName("results.menu");
+  auto* menu = named("results.menu", new QMenu(this));
   menu->setAttribute(Qt::WA_DeleteOnClose);
   const auto add = [&](const char* icon, const QString& text, void (ResultList::*intent)(quint64)) {
     menu->addAction(themed_icon(icon), text, this, [this, id, intent] { emit(this->*intent)(id); });

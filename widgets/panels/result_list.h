@@ -15,7 +15,6 @@ namespace episcope {
 
 inline constexpr quint64 kLiveResult = 0;
 
-/// A row of the list of results.
 struct ResultRow {
   quint64 id = 0;  ///< `kLiveResult`: an estimate that is not kept.
   QString method;

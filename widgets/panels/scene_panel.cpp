@@ -23,7 +23,6 @@
 #include <QStyleOptionSlider>
 #include <QStyledItemDelegate>
 #include <QToolButton>
-#include <QVBoxLayout>
 
 #include <algorithm>
 #include <utility>
@@ -163,18 +162,17 @@ ScenePanel::ScenePanel(SceneList* list, QWidget* parent)
     : QWidget(parent),
       list_(list),
       shown_(new ShownScenes(this)),
-      filter_(new QLineEdit(this)),
-      order_(new QComboBox(this)),
-      view_(new QListView(this)),
-      hint_(new QLabel(this)),
-      problem_(new FoldedLabel(this, kProblemLines)),
+      filter_(named("scenes.filter", new QLineEdit(this))),
+      order_(named("scenes.order", new QComboBox(this))),
+      view_(named("scenes.list", new QListView(this))),
+      hint_(named("scenes.hint", new QLabel(this))),
+      problem_(named("scenes.problem", new FoldedLabel(this, kProblemLines))),
       folder_label_(new ElidedLabel(this, Qt::ElideMiddle)),
-      count_(new ElidedLabel(this)),
+      count_(named("scenes.count", new ElidedLabel(this))),
       head_(new QWidget(this)) {
   setObjectName("scenePanel");
   shown_->setSourceModel(list);
   shown_->setDynamicSortFilter(true);
-  view_->setObjectName("scenes.list");
   view_->setAccessibleName(tr("Scenes"));
   filter_->setAccessibleName(tr("Filter"));
   order_->setAccessibleName(tr("Order"));
@@ -184,20 +182,15 @@ ScenePanel::ScenePanel(SceneList* list, QWidget* parent)
   view_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   view_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   view_->setVerticalScrollMode(QAbstractItemView::ScrollPerPixel);
-  filter_->setObjectName("scenes.filter");
   filter_->setPlaceholderText(tr("Filter: name, form, ground truth …"));
   filter_->setClearButtonEnabled(true);
-  order_->setObjectName("scenes.order");
   order_->setToolTip(tr("Order of the list"));
   order_->addItem(tr("Name"), Qt::DisplayRole);
   order_->addItem(tr("Form"), SceneList::kForm);
   order_->addItem(tr("Size"), SceneList::kSamples);
   order_->addItem(tr("Ground truth"), SceneList::kHasTruth);
-  hint_->setObjectName("scenes.hint");
   hint_->setAlignment(Qt::AlignCenter);
   hint_->setWordWrap(true);
-  problem_->setObjectName("scenes.problem");
-  count_->setObjectName("scenes.count");
   buildRows();
   connect(filter_, &QLineEdit::textChanged, shown_, &QSortFilterProxyModel::setFilterFixedString);
   connect(order_, &QComboBox::currentIndexChanged, this, &ScenePanel::sort);
@@ -214,20 +207,10 @@ ScenePanel::ScenePanel(SceneList* list, QWidget* parent)
 }
 
 void ScenePanel::buildRows() {
-  auto* row = new QHBoxLayout(head_);
-  row->setContentsMargins(0, 0, 0, 0);
-  row->setSpacing(theme::kSpacing);
-  row->addWidget(filter_, 1);
-  row->addWidget(order_);
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(theme::kMargin, theme::kMargin, theme::kMargin, theme::kMargin);
-  layout->setSpacing(theme::kSpacing);
-  layout->addWidget(folder_label_);
-  layout->addWidget(head_);
-  layout->addWidget(view_, 1);
-  layout->addWidget(hint_, 1);
-  layout->addWidget(problem_);
-  layout->addWidget(count_);
+  make_row(head_, {{filter_, 1}, order_}, {.spacing = theme::kSpacing});
+  make_column(this, {folder_label_, head_, {view_, 1}, {hint_, 1}, problem_, count_},
+              {.margins = {theme::kMargin, theme::kMargin, theme::kMargin, theme::kMargin},
+               .spacing = theme::kSpacing});
 }
 
 void ScenePanel::setOpenAction(QAction* action) {
@@ -337,17 +320,14 @@ class TimeSlider : public QSlider {
 }  // namespace
 
 TimeBar::TimeBar(QWidget* parent)
-    : QWidget(parent), slider_(new TimeSlider(Qt::Horizontal, this)), number_(new QLabel(this)) {
+    : QWidget(parent),
+      slider_(named("time.slider", new TimeSlider(Qt::Horizontal, this))),
+      number_(named("time.number", new QLabel(this))) {
   setObjectName("timeBar");
-  slider_->setObjectName("time.slider");
   slider_->setAccessibleName(tr("Frame"));
   slider_->setToolTip(tr("Frame of the sequence"));
-  number_->setObjectName("time.number");
-  auto* row = new QHBoxLayout(this);
-  row->setContentsMargins(theme::kMargin, 0, theme::kMargin, 0);
-  row->setSpacing(theme::kSpacing);
-  row->addWidget(slider_, 1);
-  row->addWidget(number_);
+  make_row(this, {{slider_, 1}, number_},
+           {.margins = {theme::kMargin, 0, theme::kMargin, 0}, .spacing = theme::kSpacing});
   connect(slider_, &QSlider::valueChanged, this, [this](int frame) {
     showNumber();
     emit frameChosen(frame);
@@ -390,10 +370,6 @@ void SceneList::clear() {
   rows_.clear();
   places_.clear();
   endResetModel();
-}
-
-int SceneList::rowOf(const QString& path) const {
-  return places_.value(path, -1);
 }
 
 void SceneList::add(const SceneItem& item) {

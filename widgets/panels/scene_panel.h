@@ -90,7 +90,6 @@ class TimeBar : public QWidget {
   QLabel* number_;
 };
 
-/// A row of the list.
 struct SceneItem {
   QString path;  ///< Path to open; unique.
   QString name;
@@ -146,7 +145,7 @@ class SceneList : public QAbstractListModel {
     mutable bool is_asked = false;
   };
 
-  [[nodiscard]] int rowOf(const QString& path) const;
+  [[nodiscard]] int rowOf(const QString& path) const { return places_.value(path, -1); }
 
   std::vector<Row> rows_;
   QHash<QString, int> places_;

@@ -3,20 +3,15 @@
 
 #include "annotation/document.h"
 #include "widgets/controls/number_spin.h"
-#include "widgets/controls/parameter_form.h"
 #include "widgets/controls/theme.h"
 #include "widgets/controls/tool_button.h"
 
-#include <QCheckBox>
-#include <QComboBox>
 #include <QEvent>
 #include <QHBoxLayout>
-#include <QLabel>
 #include <QScrollArea>
 #include <QSignalBlocker>
 #include <QStandardItemModel>
 #include <QToolButton>
-#include <QVBoxLayout>
 
 #include <algorithm>
 
@@ -30,23 +25,20 @@ constexpr int kLeastSettingsHeight = 130;
 
 SegmentPanel::SegmentPanel(QWidget* parent)
     : QWidget(parent),
-      chip_(new QLabel(this)),
+      chip_(named("segment.state", new QLabel(this))),
       actions_(new QHBoxLayout),
       overlays_(new QHBoxLayout),
-      note_(new QLabel(this)),
-      fold_(new QToolButton(this)),
-      settings_(new QScrollArea(this)),
-      source_(new QComboBox(this)),
-      all_views_(new QCheckBox(tr("All views after each stroke"), this)),
-      smoothing_(new NumberSpin(this)),
+      note_(named("segment.note", new QLabel(this))),
+      fold_(named("segment.settings", new QToolButton(this))),
+      settings_(named("segment.form", new QScrollArea(this))),
+      source_(named("segment.source", new QComboBox(this))),
+      all_views_(named("segment.keepAll", new QCheckBox(tr("All views after each stroke"), this))),
+      smoothing_(named("segment.smoothing", new NumberSpin(this))),
       form_(new ParameterForm(this)) {
   setObjectName("segmentPanel");
-  chip_->setObjectName("segment.state");
   chip_->setTextFormat(Qt::PlainText);
-  note_->setObjectName("segment.note");
   note_->setTextFormat(Qt::PlainText);
   note_->setWordWrap(true);
-  fold_->setObjectName("segment.settings");
   fold_->setText(tr("Settings"));
   fold_->setToolTip(tr("Shows the settings of the segmentation"));
   fold_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
@@ -62,13 +54,7 @@ SegmentPanel::SegmentPanel(QWidget* parent)
   below->setSpacing(theme::kSpacing);
   below->addWidget(fold_, 0, Qt::AlignTop);
   below->addWidget(note_, 1);
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(4);
-  layout->addLayout(actions_);
-  layout->addLayout(overlays_);
-  layout->addLayout(below);
-  layout->addWidget(makeSettings());
+  make_column(this, {actions_, overlays_, below, makeSettings()}, {.spacing = 4});
   connect(fold_, &QToolButton::clicked, this,
           [this] { setSettingsVisible(settings_->isHidden()); });
   connect(form_, &ParameterForm::valuesChanged, this, &SegmentPanel::parametersEdited);
@@ -79,29 +65,18 @@ SegmentPanel::SegmentPanel(QWidget* parent)
 }
 
 QWidget* SegmentPanel::makeSettings() {
-  source_->setObjectName("segment.source");
   source_->setToolTip(
       tr("Disparity that carries labels from view to view, and that the classifier may use as a "
          "feature"));
   source_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
-  all_views_->setObjectName("segment.keepAll");
   all_views_->setToolTip(
       tr("Strokes change the labels of all views: they are corrected near what "
          "the strokes say, or segmented anew if that cannot be"));
-  auto* row = new QHBoxLayout;
-  row->setSpacing(theme::kSpacing);
-  row->addWidget(new QLabel(tr("Disparity"), this));
-  row->addWidget(source_, 1);
+  auto* row =
+      make_row({new QLabel(tr("Disparity"), this), {source_, 1}}, {.spacing = theme::kSpacing});
   auto* content = new QWidget(settings_);
-  auto* layout = new QVBoxLayout(content);
-  layout->setContentsMargins(0, 0, theme::kSpacing, 0);
-  layout->setSpacing(theme::kSpacing);
-  layout->addLayout(row);
-  layout->addWidget(makeSmoothing());
-  layout->addWidget(form_);
-  layout->addWidget(all_views_);
-  layout->addStretch(1);
-  settings_->setObjectName("segment.form");
+  make_column(content, {row, makeSmoothing(), form_, all_views_, kRoom},
+              {.margins = {0, 0, theme::kSpacing, 0}, .spacing = theme::kSpacing});
   settings_->setFrameShape(QFrame::NoFrame);
   settings_->setWidgetResizable(true);
   settings_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
@@ -115,7 +90,6 @@ QWidget* SegmentPanel::makeSettings() {
 QWidget* SegmentPanel::makeSmoothing() {
   const QString tip =
       tr("Smooths the boundaries of all labels; 0 shows them as they were computed. Can be undone");
-  smoothing_->setObjectName("segment.smoothing");
   smoothing_->setRange(0, AnnotationDocument::kMaxSmoothing_px);
   smoothing_->setDecimals(2);
   smoothing_->setLeastDecimals(1);
@@ -170,10 +144,6 @@ void SegmentPanel::changeEvent(QEvent* event) {
   if (event->type() == QEvent::PaletteChange) showMood();
 }
 
-void SegmentPanel::setNote(const QString& sentence) {
-  note_->setText(sentence);
-}
-
 void SegmentPanel::setParameters(const std::vector<ParameterDescription>& parameters) {
   form_->setParameters(parameters);
 }
@@ -195,29 +165,9 @@ void SegmentPanel::setSettingsVisible(bool are_visible) {
   fold_->setArrowType(are_visible ? Qt::DownArrow : Qt::RightArrow);
 }
 
-ParameterSet SegmentPanel::parameters() const {
-  return form_->values();
-}
-
-int SegmentPanel::source() const {
-  return source_->currentData().toInt();
-}
-
 void SegmentPanel::setKeepsAllViews(bool keeps) {
   const QSignalBlocker blocker(all_views_);
   all_views_->setChecked(keeps);
-}
-
-bool SegmentPanel::keepsAllViews() const {
-  return all_views_->isChecked();
-}
-
-QString SegmentPanel::state() const {
-  return chip_->text();
-}
-
-QString SegmentPanel::note() const {
-  return note_->text();
 }
 
 }  // namespace episcope

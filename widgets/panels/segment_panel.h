@@ -2,24 +2,24 @@
 #pragma once
 
 #include "engine/core/parameter.h"
+#include "widgets/controls/parameter_form.h"
 
+#include <QCheckBox>
+#include <QComboBox>
+#include <QLabel>
 #include <QString>
 #include <QWidget>
 
 #include <vector>
 
 class QAction;
-class QCheckBox;
-class QComboBox;
 class QHBoxLayout;
-class QLabel;
 class QScrollArea;
 class QToolButton;
 
 namespace episcope {
 
 class NumberSpin;
-class ParameterForm;
 
 /// Meaning of the state chip's color.
 enum class ChipMood { Quiet, Busy, Stale, Hint, Failed };
@@ -45,20 +45,20 @@ class SegmentPanel : public QWidget {
   /// "refining …", "idle · 2.1 s"; `detail` is its tool tip.
   void setState(const QString& text, ChipMood mood, const QString& detail);
   /// Sentence on what is missing or was found; empty = none.
-  void setNote(const QString& sentence);
+  void setNote(const QString& sentence) { note_->setText(sentence); }
   void setParameters(const std::vector<ParameterDescription>& parameters);
   void setSources(const std::vector<Source>& sources, int current);
   void setSettingsVisible(bool are_visible);
   void setSmoothing(double smoothing_px);
 
-  [[nodiscard]] ParameterSet parameters() const;
+  [[nodiscard]] ParameterSet parameters() const { return form_->values(); }
   /// Id of the chosen disparity.
-  [[nodiscard]] int source() const;
+  [[nodiscard]] int source() const { return source_->currentData().toInt(); }
   /// Whether strokes change the labels of all views.
-  [[nodiscard]] bool keepsAllViews() const;
+  [[nodiscard]] bool keepsAllViews() const { return all_views_->isChecked(); }
   void setKeepsAllViews(bool keeps);
-  [[nodiscard]] QString state() const;
-  [[nodiscard]] QString note() const;
+  [[nodiscard]] QString state() const { return chip_->text(); }
+  [[nodiscard]] QString note() const { return note_->text(); }
 
  signals:
   void parametersEdited();

@@ -6,17 +6,16 @@
 #include "widgets/controls/number_spin.h"
 #include "widgets/controls/text.h"
 #include "widgets/controls/theme.h"
+#include "widgets/controls/tool_button.h"
 
 #include <QEvent>
 #include <QGridLayout>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QLocale>
 #include <QMouseEvent>
 #include <QPainter>
 #include <QPolygonF>
 #include <QSignalBlocker>
-#include <QVBoxLayout>
 
 #include <algorithm>
 #include <cmath>
@@ -43,7 +42,7 @@ StatisticsPanel::StatisticsPanel(QWidget* parent)
     : QWidget(parent),
       title_(new ElidedLabel(this)),
       histogram_(new HistogramView(this)),
-      threshold_(new NumberSpin(this)) {
+      threshold_(named("statistics.threshold", new NumberSpin(this))) {
   setObjectName("statisticsPanel");
   title_->setObjectName("statistics.title");
   auto* layout = new QGridLayout(this);
@@ -68,7 +67,6 @@ StatisticsPanel::StatisticsPanel(QWidget* parent)
 }
 
 void StatisticsPanel::addThreshold(QGridLayout& layout) {
-  threshold_->setObjectName("statistics.threshold");
   threshold_->setRange(kLeastThreshold, kLargestThreshold);
   threshold_->setDecimals(3);
   threshold_->setLeastDecimals(2);
@@ -81,11 +79,7 @@ void StatisticsPanel::addThreshold(QGridLayout& layout) {
   label->setBuddy(threshold_);
   label->setToolTip(tip);
   values_[kBad]->setToolTip(tr("Visible evaluated pixels that are off by more than the threshold"));
-  auto* row = new QHBoxLayout;
-  row->setSpacing(theme::kSpacing);
-  row->addWidget(label);
-  row->addWidget(threshold_);
-  row->addStretch(1);
+  auto* row = make_row({label, threshold_, kRoom}, {.spacing = theme::kSpacing});
   layout.addLayout(row, 4, 0, 1, static_cast<int>(names_.size()));
   connect(threshold_, &NumberSpin::valueChanged, this, &StatisticsPanel::badThresholdEdited);
 }
@@ -263,27 +257,17 @@ void HistogramView::mouseMoveEvent(QMouseEvent* event) {
   emit rangeEdited(range);
 }
 
-void HistogramView::mouseReleaseEvent(QMouseEvent*) {
-  grip_ = Grip::None;
-}
-
 ErrorPlotPanel::ErrorPlotPanel(QWidget* parent)
     : QWidget(parent),
       title_(new ElidedLabel(this)),
-      squares_(new LinePlot(this)),
-      bad_(new LinePlot(this)) {
+      squares_(named("errors.squares", new LinePlot(this))),
+      bad_(named("errors.bad", new LinePlot(this))) {
   setObjectName("errorPlotPanel");
   title_->setObjectName("errors.title");
-  squares_->setObjectName("errors.squares");
   squares_->setAccessibleName(tr("Mean squared error by true disparity"));
-  bad_->setObjectName("errors.bad");
   bad_->setAccessibleName(tr("Bad pixels by true disparity"));
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, theme::kSpacing, 0, 0);
-  layout->setSpacing(theme::kSpacing);
-  layout->addWidget(title_);
-  layout->addWidget(squares_, 1);
-  layout->addWidget(bad_, 1);
+  make_column(this, {title_, {squares_, 1}, {bad_, 1}},
+              {.margins = {0, theme::kSpacing, 0, 0}, .spacing = theme::kSpacing});
 }
 
 void ErrorPlotPanel::setPlots(const QString& title, const Plot& squares, const Plot& bad) {

@@ -86,7 +86,7 @@ class HistogramView : public QWidget {
   void paintEvent(QPaintEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
-  void mouseReleaseEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent*) override { grip_ = Grip::None; }
 
  private:
   enum class Grip { None, Min, Max, Both };

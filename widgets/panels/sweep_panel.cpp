@@ -5,15 +5,11 @@
 #include "widgets/controls/theme.h"
 #include "widgets/controls/tool_button.h"
 
-#include <QCheckBox>
-#include <QComboBox>
 #include <QGridLayout>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
-#include <QPushButton>
 #include <QSignalBlocker>
-#include <QToolButton>
 
 #include <algorithm>
 
@@ -30,25 +26,23 @@ void choose_key(QComboBox& combo, const QString& key) {
 
 SweepPanel::SweepPanel(QWidget* parent)
     : QWidget(parent),
-      title_(new ElidedLabel(this)),
+      title_(named("sweep.title", new ElidedLabel(this))),
       rows_{makeRow("sweep.first", tr("Parameter that is varied")),
             makeRow("sweep.second", tr("Second parameter that is varied"))},
-      plan_(new QLabel(this)),
-      run_(new QPushButton(themed_icon("run"), tr("Run"), this)),
-      cancel_(new QPushButton(themed_icon("stop"), tr("Cancel"), this)),
-      everywhere_(new QCheckBox(tr("All open light fields"), this)),
-      sweeps_(new QComboBox(this)),
-      scenes_(new QComboBox(this)),
+      plan_(named("sweep.plan", new QLabel(this))),
+      run_(named("sweep.run", new QPushButton(themed_icon("run"), tr("Run"), this))),
+      cancel_(named("sweep.cancel", new QPushButton(themed_icon("stop"), tr("Cancel"), this))),
+      everywhere_(named("sweep.everywhere", new QCheckBox(tr("All open light fields"), this))),
+      sweeps_(named("sweep.list", new QComboBox(this))),
+      scenes_(named("sweep.scene", new QComboBox(this))),
       remove_(make_tool_button({"sweep.remove", "trash", tr("Removes this sweep")}, this)),
       export_(make_tool_button({"sweep.export", "export", tr("Saves the points as CSV")}, this)),
       parts_{makePart(0, "sweep.upper", tr("Upper plot")),
              makePart(1, "sweep.lower", tr("Lower plot"))},
-      chosen_(new ElidedLabel(this)),
-      keep_(new QPushButton(tr("Keep"), this)),
-      use_(new QPushButton(tr("Use values"), this)) {
+      chosen_(named("sweep.chosen", new ElidedLabel(this))),
+      keep_(named("sweep.keep", new QPushButton(tr("Keep"), this))),
+      use_(named("sweep.use", new QPushButton(tr("Use values"), this))) {
   setObjectName("sweepPanel");
-  title_->setObjectName("sweep.title");
-  plan_->setObjectName("sweep.plan");
   plan_->setWordWrap(true);
   auto* layout = new QGridLayout(this);
   layout->setContentsMargins(0, theme::kSpacing, 0, 0);
@@ -114,14 +108,9 @@ SweepPanel::Part SweepPanel::makePart(int number, const QString& name, const QSt
 }
 
 QHBoxLayout* SweepPanel::makeButtons() {
-  run_->setObjectName("sweep.run");
   run_->setToolTip(tr("Runs the method on the center view with each of the values"));
-  cancel_->setObjectName("sweep.cancel");
   cancel_->setToolTip(tr("Ends the sweep and keeps its points"));
-  auto* row = new QHBoxLayout;
-  row->addWidget(run_);
-  row->addWidget(cancel_);
-  everywhere_->setObjectName("sweep.everywhere");
+  auto* row = make_row({run_, cancel_});
   everywhere_->setToolTip(tr("Runs on every open light field, one after the other"));
   row->addWidget(everywhere_);
   connect(everywhere_, &QCheckBox::toggled, this, &SweepPanel::planEdited);
@@ -134,20 +123,15 @@ QHBoxLayout* SweepPanel::makeButtons() {
 }
 
 QHBoxLayout* SweepPanel::makeSweepRow() {
-  sweeps_->setObjectName("sweep.list");
   sweeps_->setAccessibleName(tr("Sweeps"));
   sweeps_->setToolTip(tr("Sweeps so far; they are kept in the project"));
-  scenes_->setObjectName("sweep.scene");
   scenes_->setAccessibleName(tr("Light fields that are plotted"));
   scenes_->setToolTip(tr("Which light fields are plotted"));
   for (QComboBox* combo : {sweeps_, scenes_}) {
     combo->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
     combo->setMinimumContentsLength(kLeastCombo);
   }
-  auto* row = new QHBoxLayout;
-  row->addWidget(sweeps_, 3);
-  row->addWidget(scenes_, 2);
-  row->addWidget(remove_);
+  auto* row = make_row({{sweeps_, 3}, {scenes_, 2}, remove_});
   connect(sweeps_, &QComboBox::activated, this,
           [this](int place) { emit sweepChosen(sweeps_->itemData(place).toULongLong()); });
   connect(scenes_, &QComboBox::activated, this, &SweepPanel::sceneChosen);
@@ -156,16 +140,10 @@ QHBoxLayout* SweepPanel::makeSweepRow() {
 }
 
 QHBoxLayout* SweepPanel::makeActions() {
-  chosen_->setObjectName("sweep.chosen");
-  keep_->setObjectName("sweep.keep");
   keep_->setToolTip(tr(
       "Keeps the map of this point in the list of results; otherwise the next point replaces it"));
-  use_->setObjectName("sweep.use");
   use_->setToolTip(tr("Sets the form of the Estimate tab to the values of this point"));
-  auto* row = new QHBoxLayout;
-  row->addStretch(1);
-  row->addWidget(keep_);
-  row->addWidget(use_);
+  auto* row = make_row({kRoom, keep_, use_});
   connect(keep_, &QPushButton::clicked, this, &SweepPanel::keepRequested);
   connect(use_, &QPushButton::clicked, this, &SweepPanel::useRequested);
   return row;
@@ -204,10 +182,6 @@ void SweepPanel::propose(const Row& row) {
 void SweepPanel::setPlan(const QString& plan, bool can_run) {
   plan_->setText(plan);
   run_->setEnabled(can_run);
-}
-
-void SweepPanel::setRunning(bool is_running) {
-  cancel_->setEnabled(is_running);
 }
 
 void SweepPanel::setSceneCount(int count) {
@@ -261,10 +235,6 @@ void SweepPanel::setChosen(std::array<std::optional<PlotPlace>, 2> places, const
   use_->setEnabled(can_use);
 }
 
-void SweepPanel::setExportable(bool can_export) {
-  export_->setEnabled(can_export);
-}
-
 std::array<SweepPanel::Choice, 2> SweepPanel::choices() const {
   std::array<Choice, 2> chosen;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -275,18 +245,6 @@ std::array<SweepPanel::Choice, 2> SweepPanel::choices() const {
 
 std::array<int, 2> SweepPanel::measures() const {
   return {parts_[0].measure->currentIndex(), parts_[1].measure->currentIndex()};
-}
-
-bool SweepPanel::isOnAllScenes() const {
-  return everywhere_->isChecked();
-}
-
-int SweepPanel::scene() const {
-  return std::max(0, scenes_->currentIndex());
-}
-
-bool SweepPanel::isExportable() const {
-  return export_->isEnabled();
 }
 
 }  // namespace episcope

@@ -3,20 +3,20 @@
 
 #include "widgets/controls/line_plot.h"
 
+#include <QCheckBox>
+#include <QComboBox>
+#include <QPushButton>
 #include <QString>
 #include <QStringList>
+#include <QToolButton>
 #include <QWidget>
 
 #include <array>
 #include <vector>
 
-class QCheckBox;
-class QComboBox;
 class QHBoxLayout;
 class QLabel;
 class QLineEdit;
-class QPushButton;
-class QToolButton;
 
 namespace episcope {
 
@@ -48,7 +48,7 @@ class SweepPanel : public QWidget {
                  const std::vector<Parameter>& parameters);
   /// Describes the sweep that Run starts, or why it cannot.
   void setPlan(const QString& plan, bool can_run);
-  void setRunning(bool is_running);
+  void setRunning(bool is_running) { cancel_->setEnabled(is_running); }
   /// Number of open light fields; with several, a sweep can cover all.
   void setSceneCount(int count);
   /// Existing sweeps and the shown one; −1 = none.
@@ -62,19 +62,18 @@ class SweepPanel : public QWidget {
   /// The chosen point: its places in both plots, its description, and its actions.
   void setChosen(std::array<std::optional<PlotPlace>, 2> places, const QString& text, bool can_keep,
                  bool can_use);
-  void setExportable(bool can_export);
+  void setExportable(bool can_export) { export_->setEnabled(can_export); }
 
   /// First and second parameter.
   [[nodiscard]] std::array<Choice, 2> choices() const;
   /// Indices of the measures of upper and lower plot.
   [[nodiscard]] std::array<int, 2> measures() const;
-  [[nodiscard]] bool isOnAllScenes() const;
+  [[nodiscard]] bool isOnAllScenes() const { return everywhere_->isChecked(); }
   /// Index among the names of `setScenes`; 0 without a choice.
-  [[nodiscard]] int scene() const;
-  [[nodiscard]] bool isExportable() const;
+  [[nodiscard]] int scene() const { return std::max(0, scenes_->currentIndex()); }
+  [[nodiscard]] bool isExportable() const { return export_->isEnabled(); }
 
  signals:
-  /// The user edited the plan.
   void planEdited();
   void runRequested();
   void cancelRequested();

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/panels/value_bar.h"
 
-#include "widgets/controls/labels.h"
 #include "widgets/controls/number_spin.h"
 #include "widgets/controls/text.h"
 #include "widgets/controls/theme.h"
+#include "widgets/controls/tool_button.h"
 
 #include <QEvent>
 #include <QGridLayout>
-#include <QHBoxLayout>
-#include <QLabel>
 #include <QPixmap>
 #include <QPushButton>
 #include <QSignalBlocker>
@@ -64,20 +62,13 @@ QStringList reading_parts(const PixelReading& reading) {
 
 ValueBar::ValueBar(QWidget* parent)
     : QWidget(parent),
-      swatch_(new QLabel(this)),
-      values_(new PartsLabel(this)),
-      status_(new QLabel(this)) {
+      swatch_(named("valueBar.swatch", new QLabel(this))),
+      values_(named("valueBar.values", new PartsLabel(this))),
+      status_(named("valueBar.status", new QLabel(this))) {
   setObjectName("valueBar");
-  swatch_->setObjectName("valueBar.swatch");
   swatch_->setFixedSize(kSwatch, kSwatch);
-  values_->setObjectName("valueBar.values");
-  status_->setObjectName("valueBar.status");
-  auto* layout = new QHBoxLayout(this);
-  layout->setContentsMargins(theme::kMargin, 2, theme::kMargin, 2);
-  layout->setSpacing(theme::kSpacing);
-  layout->addWidget(swatch_);
-  layout->addWidget(values_, 1);
-  layout->addWidget(status_);
+  make_row(this, {swatch_, {values_, 1}, status_},
+           {.margins = {theme::kMargin, 2, theme::kMargin, 2}, .spacing = theme::kSpacing});
   setReading(std::nullopt);
 }
 
@@ -99,14 +90,6 @@ void ValueBar::changeEvent(QEvent* event) {
 void ValueBar::updateColors() {
   values_->setPalette(has_reading_ ? QPalette()
                                    : theme::text_palette(theme::muted_text(palette())));
-}
-
-void ValueBar::setStatus(const QString& status) {
-  status_->setText(status);
-}
-
-QString ValueBar::text() const {
-  return values_->fullText();
 }
 
 namespace {
@@ -170,11 +153,9 @@ TonePanel::Row TonePanel::addRow(int place, const Quality& quality) {
 
 void TonePanel::addButtons() {
   auto* layout = qobject_cast<QGridLayout*>(this->layout());
-  auto* automatic = new QPushButton(tr("Automatic"), this);
-  automatic->setObjectName("tone.automatic");
+  auto* automatic = named("tone.automatic", new QPushButton(tr("Automatic"), this));
   automatic->setToolTip(tr("Shows the whole brightness range of this view"));
-  auto* reset = new QPushButton(tr("Reset"), this);
-  reset->setObjectName("tone.reset");
+  auto* reset = named("tone.reset", new QPushButton(tr("Reset"), this));
   reset->setToolTip(tr("Shows samples as they are"));
   layout->addWidget(automatic, kButtonRow, 1);
   layout->addWidget(reset, kButtonRow, 2);
@@ -186,11 +167,12 @@ void TonePanel::addButtons() {
 }
 
 void TonePanel::addReach() {
-  auto* reach = new QLabel(
-      tr("Brightens views, EPIs, tiles, the points of the 3D tab, and saved pictures and movies. "
-         "Results, labels, PLY files and converted light fields keep the samples."),
-      this);
-  reach->setObjectName("tone.reach");
+  auto* reach = named(
+      "tone.reach",
+      new QLabel(tr("Brightens views, EPIs, tiles, the points of the 3D tab, and saved pictures "
+                    "and movies. "
+                    "Results, labels, PLY files and converted light fields keep the samples."),
+                 this));
   reach->setTextFormat(Qt::PlainText);
   reach->setWordWrap(true);
   reach->setPalette(theme::text_palette(theme::muted_text(palette())));

@@ -3,8 +3,10 @@
 
 #include "engine/core/indices.h"
 #include "engine/render/shade.h"
+#include "widgets/controls/labels.h"
 
 #include <QColor>
+#include <QLabel>
 #include <QString>
 #include <QStringList>
 #include <QWidget>
@@ -12,12 +14,9 @@
 #include <optional>
 #include <vector>
 
-class QLabel;
 class QSlider;
 
 namespace episcope {
-
-class PartsLabel;
 
 /// Value of one estimate at the cursor.
 struct EstimateReading {
@@ -49,11 +48,11 @@ class ValueBar : public QWidget {
 
   /// None = the cursor is not on a pixel.
   void setReading(const std::optional<PixelReading>& reading);
-  void setStatus(const QString& status);
+  void setStatus(const QString& status) { status_->setText(status); }
 
   /// The line as plain text, e.g. "x 301 y 417 · rgb 120 88 40 · truth 0.312 · EPI_S 0.318
   /// (−0.006)".
-  [[nodiscard]] QString text() const;
+  [[nodiscard]] QString text() const { return values_->fullText(); }
 
  protected:
   void changeEvent(QEvent* event) override;

@@ -12,9 +12,7 @@
 #include <QMouseEvent>
 #include <QPainter>
 #include <QSignalBlocker>
-#include <QToolButton>
 #include <QToolTip>
-#include <QVBoxLayout>
 
 #include <algorithm>
 #include <cmath>
@@ -31,34 +29,23 @@ constexpr int kPlayInterval = 90;  // ms a view: eleven a second show parallax s
 ViewGrid::ViewGrid(QWidget* parent)
     : QWidget(parent),
       cells_(new ViewGridCells(this)),
-      play_(new QToolButton(this)),
-      path_(new QComboBox(this)),
-      position_(new QLabel(this)) {
+      play_(named("viewGrid.play", new QToolButton(this))),
+      path_(named("viewGrid.path", new QComboBox(this))),
+      position_(named("viewGrid.position", new QLabel(this))) {
   setObjectName("viewGrid");
-  play_->setObjectName("viewGrid.play");
   play_->setCheckable(true);
   play_->setAutoRaise(true);
   play_->setIcon(themed_icon("play"));
   play_->setToolTip(tr("Plays the views one after the other"));
-  path_->setObjectName("viewGrid.path");
   path_->addItem(tr("circle"), static_cast<int>(CameraPath::Circle));
   path_->addItem(tr("swing"), static_cast<int>(CameraPath::Swing));
   path_->addItem(tr("snake"), static_cast<int>(CameraPath::Snake));
   path_->setToolTip(tr("Order in which the views are played"));
-  position_->setObjectName("viewGrid.position");
   position_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
   timer_.setInterval(kPlayInterval);
 
-  auto* row = new QHBoxLayout;
-  row->setSpacing(theme::kSpacing);
-  row->addWidget(play_);
-  row->addWidget(path_);
-  row->addWidget(position_, 1);
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(theme::kSpacing);
-  layout->addWidget(cells_, 1);
-  layout->addLayout(row);
+  auto* row = make_row({play_, path_, {position_, 1}}, {.spacing = theme::kSpacing});
+  make_column(this, {{cells_, 1}, row}, {.spacing = theme::kSpacing});
 
   connect(cells_, &ViewGridCells::viewClicked, this, &ViewGrid::select);
   connect(play_, &QToolButton::toggled, this, &ViewGrid::setPlaying);

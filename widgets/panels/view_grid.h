@@ -5,6 +5,7 @@
 
 #include <QImage>
 #include <QTimer>
+#include <QToolButton>
 #include <QWidget>
 
 #include <optional>
@@ -14,7 +15,6 @@ class QAction;
 class QComboBox;
 class QLabel;
 class QPainter;
-class QToolButton;
 
 namespace episcope {
 
@@ -35,7 +35,6 @@ class ViewGrid : public QWidget {
   void setOpening(bool is_opening);
   /// Ignored for a view outside the grid.
   void setThumbnail(ViewIndex view, const QImage& thumbnail);
-  /// Marks painted views.
   void setPainted(const std::vector<ViewIndex>& views);
   /// Marks the views that are done while all are worked on; empty = no work is under way.
   void setDone(const std::vector<ViewIndex>& views);
@@ -80,7 +79,6 @@ class ViewGridCells : public QWidget {
   void setCurrent(ViewIndex view);
   void setOpening(bool is_opening);
   void setThumbnail(ViewIndex view, const QImage& thumbnail);
-  /// Marks painted views.
   void setPainted(const std::vector<ViewIndex>& views);
   void setDone(const std::vector<ViewIndex>& views);
   [[nodiscard]] const std::vector<ViewIndex>& done() const { return done_; }

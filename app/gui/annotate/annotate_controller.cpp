@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 namespace episcope {
@@ -150,10 +151,6 @@ bool AnnotateController::isTabShown() const {
   // What is checked is corrected at once.
   const Panes& panes = bench_.frame.panes();
   return panes.isSeen("tab.annotate") || panes.isSeen("tab.check");
-}
-
-bool AnnotateController::hasDocument() const {
-  return document_.document() != nullptr;
 }
 
 void AnnotateController::showScribbles() {
@@ -366,10 +363,6 @@ std::vector<std::uint8_t> AnnotateController::wandAt(PixelIndex seed) {
                       static_cast<float>(panel_->fillTolerance()) * likeness().noise());
 }
 
-void AnnotateController::fillShown() {
-  if (is_fill_shown_) fill({.at = {fill_seed_.x + 0.5, fill_seed_.y + 0.5}});
-}
-
 void AnnotateController::fill(const StrokeStart& start) {
   if (!hasDocument() || (!start.erases && !requireLabel())) return;
   if (tool_ == AnnotationTool::Wand && wand_.prepare() != Wand::State::Ready) return prepareWand();
@@ -418,37 +411,24 @@ void AnnotateController::goTo(const DocumentChange& change) {
 namespace {
 
 QString edit_text(EditKind kind) {
-  switch (kind) {
-    case EditKind::Paint:
-      return AnnotateController::tr("stroke");
-    case EditKind::Erase:
-      return AnnotateController::tr("erasing");
-    case EditKind::Fill:
-      return AnnotateController::tr("fill");
-    case EditKind::AddLabel:
-      return AnnotateController::tr("new label");
-    case EditKind::RenameLabel:
-      return AnnotateController::tr("label name");
-    case EditKind::RecolorLabel:
-      return AnnotateController::tr("label color");
-    case EditKind::RemoveLabel:
-      return AnnotateController::tr("label removal");
-    case EditKind::Import:
-      return AnnotateController::tr("import");
-    case EditKind::SmoothBoundaries:
-      return AnnotateController::tr("smooth boundaries");
-    case EditKind::Polygon:
-      return AnnotateController::tr("polygon");
-    case EditKind::Lasso:
-      return AnnotateController::tr("lasso");
-    case EditKind::MergeLabel:
-      return AnnotateController::tr("merging of labels");
-    case EditKind::RenumberLabel:
-      return AnnotateController::tr("label number");
-    case EditKind::MoveLabel:
-      return AnnotateController::tr("order of labels");
-  }
-  return {};
+  static const std::map<EditKind, const char*> texts{
+      {EditKind::Paint, QT_TRANSLATE_NOOP("episcope::AnnotateController", "stroke")},
+      {EditKind::Erase, QT_TRANSLATE_NOOP("episcope::AnnotateController", "erasing")},
+      {EditKind::Fill, QT_TRANSLATE_NOOP("episcope::AnnotateController", "fill")},
+      {EditKind::AddLabel, QT_TRANSLATE_NOOP("episcope::AnnotateController", "new label")},
+      {EditKind::RenameLabel, QT_TRANSLATE_NOOP("episcope::AnnotateController", "label name")},
+      {EditKind::RecolorLabel, QT_TRANSLATE_NOOP("episcope::AnnotateController", "label color")},
+      {EditKind::RemoveLabel, QT_TRANSLATE_NOOP("episcope::AnnotateController", "label removal")},
+      {EditKind::Import, QT_TRANSLATE_NOOP("episcope::AnnotateController", "import")},
+      {EditKind::SmoothBoundaries,
+       QT_TRANSLATE_NOOP("episcope::AnnotateController", "smooth boundaries")},
+      {EditKind::Polygon, QT_TRANSLATE_NOOP("episcope::AnnotateController", "polygon")},
+      {EditKind::Lasso, QT_TRANSLATE_NOOP("episcope::AnnotateController", "lasso")},
+      {EditKind::MergeLabel,
+       QT_TRANSLATE_NOOP("episcope::AnnotateController", "merging of labels")},
+      {EditKind::RenumberLabel, QT_TRANSLATE_NOOP("episcope::AnnotateController", "label number")},
+      {EditKind::MoveLabel, QT_TRANSLATE_NOOP("episcope::AnnotateController", "order of labels")}};
+  return AnnotateController::tr(texts.at(kind));
 }
 
 }  // namespace
@@ -471,33 +451,29 @@ void AnnotateController::addHistoryCommands() {
   const auto undone = [this] { return hasDocument() ? history().next_undo() : nullptr; };
   const auto redone = [this] { return hasDocument() ? history().next_redo() : nullptr; };
   bench_.commands.add(
-      {.id = "annotate.undo",
-       .menu = Menu::Annotate,
-       .text = tr("Undo"),
-       .tip = tr("Undoes the last stroke or change of labels, on whichever view it was made"),
-       .icon = "undo",
-       .keys = {tr("Ctrl+Z")},
-       .run = [this] { document_.undo(); },
-       .section = annotate_section::kHistory,
-       .enabled = [undone] { return undone() != nullptr; },
-       .live_text =
-           [undone] {
-             return undone() ? tr("Undo %1").arg(edit_text(undone()->kind)) : tr("Undo");
-           }});
-  bench_.commands.add({.id = "annotate.redo",
-                       .menu = Menu::Annotate,
-                       .text = tr("Redo"),
-                       .tip = tr("Redoes the last undone change"),
-                       .icon = "redo",
-                       .keys = {tr("Ctrl+Y"), tr("Ctrl+Shift+Z")},
-                       .run = [this] { document_.redo(); },
-                       .section = annotate_section::kHistory,
-                       .enabled = [redone] { return redone() != nullptr; },
-                       .live_text =
-                           [redone] {
-                             return redone() ? tr("Redo %1").arg(edit_text(redone()->kind))
-                                             : tr("Redo");
-                           }});
+      {.menu = Menu::Annotate, .section = annotate_section::kHistory},
+      {{.id = "annotate.undo",
+        .text = tr("Undo"),
+        .tip = tr("Undoes the last stroke or change of labels, on whichever view it was made"),
+        .icon = "undo",
+        .keys = {tr("Ctrl+Z")},
+        .run = [this] { document_.undo(); },
+        .enabled = [undone] { return undone() != nullptr; },
+        .live_text =
+            [undone] {
+              return undone() ? tr("Undo %1").arg(edit_text(undone()->kind)) : tr("Undo");
+            }},
+       {.id = "annotate.redo",
+        .text = tr("Redo"),
+        .tip = tr("Redoes the last undone change"),
+        .icon = "redo",
+        .keys = {tr("Ctrl+Y"), tr("Ctrl+Shift+Z")},
+        .run = [this] { document_.redo(); },
+        .enabled = [redone] { return redone() != nullptr; },
+        .live_text =
+            [redone] {
+              return redone() ? tr("Redo %1").arg(edit_text(redone()->kind)) : tr("Redo");
+            }}});
 }
 
 void AnnotateController::addToolCommands() {
@@ -546,63 +522,52 @@ void AnnotateController::addToolCommands() {
 void AnnotateController::addPolygonCommands() {
   const auto is_drawing = [this] { return polygon_tool_->isDrawing(); };
   bench_.commands.add(
-      {.id = "annotate.close_polygon",
-       .menu = Menu::Annotate,
-       .text = tr("Close the polygon, or accept the region"),
-       .tip = tr("Paints the inside of the polygon being drawn; without one, paints the marked "
-                 "region in doubt with the label that it has, else what the fill or the wand "
-                 "shows under the cursor"),
-       .keys = {Qt::Key_Return, Qt::Key_Enter},
-       .run =
-           [this] {
-             if (polygon_tool_->closeUp()) return;
-             bench_.labels.hasRegion() ? bench_.labels.acceptRegion() : fillShown();
-           },
-       .section = annotate_section::kTools,
-       .scope = KeyScope::Viewer,
-       .enabled =
-           [this, is_drawing] {
-             return is_drawing() || bench_.labels.hasRegion() || is_fill_shown_;
-           }});
-  bench_.commands.add({.id = "annotate.take_corner_back",
-                       .menu = Menu::Annotate,
-                       .text = tr("Remove the last corner"),
-                       .tip = tr("Removes the last corner of the polygon"),
-                       .keys = {Qt::Key_Backspace},
-                       .run = [this] { polygon_tool_->takeBack(); },
-                       .section = annotate_section::kTools,
-                       .scope = KeyScope::Viewer,
-                       .enabled = is_drawing});
+      {.menu = Menu::Annotate, .section = annotate_section::kTools},
+      {{.id = "annotate.close_polygon",
+        .text = tr("Close the polygon, or accept the region"),
+        .tip = tr("Paints the inside of the polygon being drawn; without one, paints the marked "
+                  "region in doubt with the label that it has, else what the fill or the wand "
+                  "shows under the cursor"),
+        .keys = {Qt::Key_Return, Qt::Key_Enter},
+        .run =
+            [this] {
+              if (polygon_tool_->closeUp()) return;
+              bench_.labels.hasRegion() ? bench_.labels.acceptRegion() : fillShown();
+            },
+        .scope = KeyScope::Viewer,
+        .enabled =
+            [this, is_drawing] {
+              return is_drawing() || bench_.labels.hasRegion() || is_fill_shown_;
+            }},
+       {.id = "annotate.take_corner_back",
+        .text = tr("Remove the last corner"),
+        .tip = tr("Removes the last corner of the polygon"),
+        .keys = {Qt::Key_Backspace},
+        .run = [this] { polygon_tool_->takeBack(); },
+        .scope = KeyScope::Viewer,
+        .enabled = is_drawing}});
 }
 
 void AnnotateController::addSizeCommands() {
   const auto has_document = [this] { return hasDocument(); };
-  bench_.commands.add({.id = "annotate.larger",
-                       .menu = Menu::Annotate,
-                       .text = tr("Larger brush"),
-                       .tip = tr("Enlarges the brush, or the eraser while it is in use"),
-                       .keys = {Qt::Key_BracketRight, Qt::Key_Period},
-                       .run = [this] { stepSize(1); },
-                       .section = annotate_section::kTools,
-                       .enabled = has_document});
-  bench_.commands.add({.id = "annotate.smaller",
-                       .menu = Menu::Annotate,
-                       .text = tr("Smaller brush"),
-                       .tip = tr("Shrinks the brush, or the eraser while it is in use"),
-                       .keys = {Qt::Key_BracketLeft, Qt::Key_Comma},
-                       .run = [this] { stepSize(-1); },
-                       .section = annotate_section::kTools,
-                       .enabled = has_document});
   bench_.commands.add(
-      {.id = "annotate.protect",
-       .menu = Menu::Annotate,
-       .text = tr("Protect other labels"),
-       .tip = tr(
-           "Paints only unpainted pixels and erases only the current label, as holding Shift does"),
-       .run = [this] { setProtectsOthers(!protects_others_); },
-       .section = annotate_section::kTools,
-       .enabled = has_document,
-       .checked = [this] { return protects_others_; }});
+      {.menu = Menu::Annotate, .section = annotate_section::kTools, .enabled = has_document},
+      {{.id = "annotate.larger",
+        .text = tr("Larger brush"),
+        .tip = tr("Enlarges the brush, or the eraser while it is in use"),
+        .keys = {Qt::Key_BracketRight, Qt::Key_Period},
+        .run = [this] { stepSize(1); }},
+       {.id = "annotate.smaller",
+        .text = tr("Smaller brush"),
+        .tip = tr("Shrinks the brush, or the eraser while it is in use"),
+        .keys = {Qt::Key_BracketLeft, Qt::Key_Comma},
+        .run = [this] { stepSize(-1); }},
+       {.id = "annotate.protect",
+        .text = tr("Protect other labels"),
+        .tip = tr("Paints only unpainted pixels and erases only the current label, as holding "
+                  "Shift does"),
+        .run = [this] { setProtectsOthers(!protects_others_); },
+        .checked = [this] { return protects_others_; }}});
 }
 
 const History<Edit>& AnnotateController::history() const {

@@ -17,10 +17,6 @@
 namespace episcope {
 
 class BrushPanel;
-class LassoTool;
-class OutlineTool;
-class PointTool;
-class PolygonTool;
 class ViewCanvas;
 
 enum class AnnotationTool { Brush, Eraser, Fill, Wand, Polygon, Lasso, Pick };
@@ -57,7 +53,7 @@ class AnnotateController : public QObject {
   void addToolCommands();
   void addPolygonCommands();
   void addSizeCommands();
-  [[nodiscard]] bool hasDocument() const;
+  [[nodiscard]] bool hasDocument() const { return document_.document() != nullptr; }
   /// Precondition: there is a document.
   [[nodiscard]] const History<Edit>& history() const;
 
@@ -86,7 +82,9 @@ class AnnotateController : public QObject {
   void connectFill();
   void previewFill(PixelIndex seed);
   /// Paints what the fill or the wand shows under the cursor, if anything.
-  void fillShown();
+  void fillShown() {
+    if (is_fill_shown_) fill({.at = {fill_seed_.x + 0.5, fill_seed_.y + 0.5}});
+  }
   /// Superpixels that the wand selects at a pixel.
   [[nodiscard]] std::vector<std::uint8_t> wandAt(PixelIndex seed);
   /// Makes the wand ready if it is in use; tells why it must be waited for.

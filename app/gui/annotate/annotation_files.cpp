@@ -18,6 +18,7 @@
 #include "engine/io/models/labels/label_pictures.h"
 #include "engine/io/models/scribble_file.h"
 #include "widgets/controls/message_bar.h"
+#include "widgets/controls/tool_button.h"
 #include "widgets/panels/brush_panel.h"
 
 #include <QCoreApplication>
@@ -114,10 +115,6 @@ QString AnnotationFiles::suggestion() const {
   return name + "_labels.h5";
 }
 
-void AnnotationFiles::save() {
-  saveAndThen(nullptr);
-}
-
 void AnnotationFiles::saveAndThen(std::function<void()> then) {
   if (!document_.document()) return;
   const QString path = place();
@@ -132,10 +129,6 @@ void AnnotationFiles::tellReadOnly() const {
   if (beside.empty()) return;
   bench_.messages.warn(tr("%1 cannot be written: choose another place for labels and scribbles.")
                            .arg(QString::fromStdString(beside.string())));
-}
-
-void AnnotationFiles::saveAsDialog() {
-  askForPlace(nullptr);
 }
 
 void AnnotationFiles::askForPlace(std::function<void()> then) {
@@ -158,10 +151,6 @@ void AnnotationFiles::saveToChosen(const QString& path, std::function<void()> th
                     [this, path, then = std::move(then)] { saveTo(path, then); });
 }
 
-void AnnotationFiles::saveAs(const QString& path) {
-  saveTo(path, nullptr);
-}
-
 std::function<Scribbles()> AnnotationFiles::snapshot() {
   document_.endStroke();
   const AnnotationDocument& document = *document_.document();
@@ -171,13 +160,9 @@ std::function<Scribbles()> AnnotationFiles::snapshot() {
   };
 }
 
-bool AnnotationFiles::hasChangedOnDisk(const QString& path) const {
-  return saving_ == 0 && known_.has_changed(path_of(path));
-}
-
 void AnnotationFiles::saveTo(const QString& path, std::function<void()> then) {
   if (!document_.document()) return;
-  if (!hasChangedOnDisk(path)) {
+  if (saving_ != 0 || !known_.has_changed(path_of(path))) {
     write(path, std::move(then));
     return;
   }
@@ -377,9 +362,8 @@ RecoveryController::RecoveryController(const Workbench& bench)
       bench_(bench),
       session_(bench.session),
       document_(bench.document),
-      bar_(new MessageBar(&bench.frame)),
+      bar_(named("recoveryBar", new MessageBar(&bench.frame))),
       job_(this) {
-  bar_->setObjectName("recoveryBar");
   bench.frame.addFloating(bar_);
   connect(&bench.frame, &Frame::settled, this, &RecoveryController::look);
   connect(&document_, &DocumentController::replaced, this, [this] {

@@ -37,9 +37,9 @@ class AnnotationFiles : public QObject {
   /// Target of `save`: the last file written, else a file beside the light field. Empty if neither
   /// is known and writable; `save` asks then.
   [[nodiscard]] QString place() const;
-  void save();
-  void saveAsDialog();
-  void saveAs(const QString& path);
+  void save() { saveAndThen(nullptr); }
+  void saveAsDialog() { askForPlace(nullptr); }
+  void saveAs(const QString& path) { saveTo(path, nullptr); }
   /// Writes a picture of each painted view into a folder.
   void exportDialog();
   void exportPictures(const QString& folder);
@@ -59,7 +59,6 @@ class AnnotationFiles : public QObject {
   void saveTo(const QString& path, std::function<void()> then);
   void write(const QString& path, std::function<void()> then);
   void reload(const QString& path);
-  [[nodiscard]] bool hasChangedOnDisk(const QString& path) const;
   /// Saves, then calls `then` on success.
   void saveAndThen(std::function<void()> then);
   /// Why the file beside the light field is not the place, if there could be one.

@@ -8,6 +8,7 @@
 #include "app/gui/shell/dialogs.h"
 #include "app/gui/shell/frame.h"
 #include "widgets/controls/text.h"
+#include "widgets/controls/tool_button.h"
 #include "widgets/panels/label_palette.h"
 
 #include <QColorDialog>
@@ -74,22 +75,17 @@ void LabelController::addChoiceCommands() {
                return label ? QString::fromStdString(label->name) : tr("Label %1").arg(id);
              }});
   }
-  bench_.commands.add({.id = "annotate.next_label",
-                       .menu = Menu::Labels,
-                       .text = tr("Next label"),
-                       .tip = tr("Paints with the next label"),
-                       .keys = {Qt::Key_N},
-                       .run = [this] { labels_.chooseNext(); },
-                       .section = label_section::kEdit,
-                       .enabled = has_label});
-  bench_.commands.add({.id = "annotate.swap_labels",
-                       .menu = Menu::Labels,
-                       .text = tr("Swap labels"),
-                       .tip = tr("Returns to the label used before"),
-                       .keys = {Qt::Key_X},
-                       .run = [this] { labels_.swap(); },
-                       .section = label_section::kEdit,
-                       .enabled = has_label});
+  bench_.commands.add({.menu = Menu::Labels, .section = label_section::kEdit, .enabled = has_label},
+                      {{.id = "annotate.next_label",
+                        .text = tr("Next label"),
+                        .tip = tr("Paints with the next label"),
+                        .keys = {Qt::Key_N},
+                        .run = [this] { labels_.chooseNext(); }},
+                       {.id = "annotate.swap_labels",
+                        .text = tr("Swap labels"),
+                        .tip = tr("Returns to the label used before"),
+                        .keys = {Qt::Key_X},
+                        .run = [this] { labels_.swap(); }}});
 }
 
 void LabelController::addEditCommands() {
@@ -217,8 +213,7 @@ void LabelController::merge() {
     names << QString("%1 · %2").arg(each.id).arg(QString::fromStdString(each.name));
     ids.push_back(each.id);
   }
-  auto* dialog = new QInputDialog(&bench_.window);
-  dialog->setObjectName("merge_labels");
+  auto* dialog = named("merge_labels", new QInputDialog(&bench_.window));
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   dialog->setWindowTitle(tr("Merge labels"));
   dialog->setLabelText(tr("Merge “%1” into:").arg(QString::fromStdString(label->name)));
@@ -248,8 +243,7 @@ void LabelController::move(int id, int by) {
 void LabelController::askForNumber(int id) {
   const LabelInfo* label = find(id);
   if (!label || refuseLocked(*label, tr("“%1” is locked: unlock it to change its number."))) return;
-  auto* dialog = new QInputDialog(&bench_.window);
-  dialog->setObjectName("renumber_label");
+  auto* dialog = named("renumber_label", new QInputDialog(&bench_.window));
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   dialog->setWindowTitle(tr("Change the number of a label"));
   dialog->setLabelText(tr("Number of “%1”, from 1 to %2:")
@@ -414,44 +408,37 @@ void LabelLookController::addCommands() {
   const auto has_label = [current] { return current() != 0; };
   const auto marks = [this]() -> const LabelMarks& { return bench_.session.place().label_marks; };
   bench_.commands.add(
-      {.id = "annotate.hide_label",
-       .menu = Menu::Labels,
-       .text = tr("Hide label"),
-       .tip = tr("Neither shows the current label nor paints over it"),
-       .icon = "eye_off",
-       .keys = {Qt::Key_V},
-       .run = [this, current, marks] { setHidden(current(), !marks().hidden.contains(current())); },
-       .section = label_section::kLook,
-       .enabled = has_label,
-       .checked = [=] { return marks().hidden.contains(current()); }});
-  bench_.commands.add({.id = "annotate.only_label",
-                       .menu = Menu::Labels,
-                       .text = tr("Show only this label"),
-                       .tip = tr("Hides all other labels; a second time shows them again"),
-                       .run = [this, current] { showOnly(current()); },
-                       .section = label_section::kLook,
-                       .enabled = has_label});
-  bench_.commands.add(
-      {.id = "annotate.lock_label",
-       .menu = Menu::Labels,
-       .text = tr("Lock label"),
-       .tip = tr("The current label is neither painted nor painted over"),
-       .icon = "lock",
-       .keys = {tr("Shift+V")},
-       .run = [this, current, marks] { setLocked(current(), !marks().locked.contains(current())); },
-       .section = label_section::kLook,
-       .enabled = has_label,
-       .checked = [=] { return marks().locked.contains(current()); }});
-  bench_.commands.add(
-      {.id = "annotate.drawing",
-       .menu = Menu::Labels,
-       .text = tr("Draw labels as areas, contours or both"),
-       .tip = tr("Draws strokes and segments as areas, as contours, or as faint areas with "
-                 "contours"),
-       .keys = {tr("Shift+C")},
-       .run = [this] { setDrawing(after(bench_.session.label_style().drawing)); },
-       .section = label_section::kLook,
-       .enabled = [this] { return bench_.session.scene() != nullptr; }});
+      {.menu = Menu::Labels, .section = label_section::kLook},
+      {{.id = "annotate.hide_label",
+        .text = tr("Hide label"),
+        .tip = tr("Neither shows the current label nor paints over it"),
+        .icon = "eye_off",
+        .keys = {Qt::Key_V},
+        .run = [this, current,
+                marks] { setHidden(current(), !marks().hidden.contains(current())); },
+        .enabled = has_label,
+        .checked = [=] { return marks().hidden.contains(current()); }},
+       {.id = "annotate.only_label",
+        .text = tr("Show only this label"),
+        .tip = tr("Hides all other labels; a second time shows them again"),
+        .run = [this, current] { showOnly(current()); },
+        .enabled = has_label},
+       {.id = "annotate.lock_label",
+        .text = tr("Lock label"),
+        .tip = tr("The current label is neither painted nor painted over"),
+        .icon = "lock",
+        .keys = {tr("Shift+V")},
+        .run = [this, current,
+                marks] { setLocked(current(), !marks().locked.contains(current())); },
+        .enabled = has_label,
+        .checked = [=] { return marks().locked.contains(current()); }},
+       {.id = "annotate.drawing",
+        .text = tr("Draw labels as areas, contours or both"),
+        .tip = tr("Draws strokes and segments as areas, as contours, or as faint areas with "
+                  "contours"),
+        .keys = {tr("Shift+C")},
+        .run = [this] { setDrawing(after(bench_.session.label_style().drawing)); },
+        .enabled = [this] { return bench_.session.scene() != nullptr; }}});
 }
 
 void LabelLookController::update(Parts parts) {

@@ -13,6 +13,7 @@
 #include "engine/io/base/image_file.h"
 #include "engine/io/models/scribble_file.h"
 #include "widgets/controls/picture.h"
+#include "widgets/controls/tool_button.h"
 #include "widgets/panels/brush_panel.h"
 
 #include <QButtonGroup>
@@ -69,7 +70,6 @@ QImage preview_of(const LightField& field, const ViewScribbles& one,
   return to_qimage(std::move(picture));
 }
 
-/// The view nearest to the one that is shown.
 const ViewScribbles& nearest_view(const Scribbles& labels, ViewIndex view) {
   return *std::ranges::min_element(labels.views, {}, [view](const ViewScribbles& one) {
     return std::abs(one.view.v - view.v) + std::abs(one.view.u - view.u);
@@ -88,8 +88,7 @@ std::optional<std::vector<std::int32_t>> ids_in(const QString& text) {
 }
 
 QLabel* wrapped_label(const QString& name, QWidget* parent) {
-  auto* label = new QLabel(parent);
-  label->setObjectName(name);
+  auto* label = named(name, new QLabel(parent));
   label->setWordWrap(true);
   label->setTextFormat(Qt::PlainText);
   label->setTextInteractionFlags(Qt::TextSelectableByMouse);
@@ -129,18 +128,16 @@ class ImportLabelsDialog : public QDialog {
 
 ImportLabelsDialog::ImportLabelsDialog(QWidget* parent, bool has_labels)
     : QDialog(parent),
-      preview_(new QLabel(this)),
+      preview_(named("importLabels.preview", new QLabel(this))),
       content_(wrapped_label("importLabels.content", this)),
       notes_(wrapped_label("importLabels.notes", this)),
-      ignored_(new QLineEdit(this)),
+      ignored_(named("importLabels.ignored", new QLineEdit(this))),
       uses_(new QButtonGroup(this)),
       layout_(new QVBoxLayout(this)) {
   setObjectName("importLabels");
   setAttribute(Qt::WA_DeleteOnClose);
   setWindowTitle(tr("Import labels"));
-  preview_->setObjectName("importLabels.preview");
   preview_->setAlignment(Qt::AlignCenter);
-  ignored_->setObjectName("importLabels.ignored");
   ignored_->setPlaceholderText(tr("255 where all labels are smaller"));
   ignored_->setToolTip(tr("Ids between commas that mean “unlabeled”, besides 0; - for none"));
   layout_->addWidget(preview_);
@@ -180,8 +177,7 @@ ImportLabelsDialog::ImportLabelsDialog(QWidget* parent, bool has_labels)
 }
 
 void ImportLabelsDialog::addUse(LabelUse use, const QString& name, const QString& text) {
-  auto* button = new QRadioButton(text, this);
-  button->setObjectName("importLabels." + name);
+  auto* button = named("importLabels." + name, new QRadioButton(text, this));
   uses_->addButton(button, static_cast<int>(use));
   layout_->addWidget(button);
 }
@@ -385,13 +381,13 @@ void disable_last(QComboBox& box) {
 
 ExportLabelsDialog::ExportLabelsDialog(QWidget* parent, const Labeling& labeling,
                                        bool is_up_to_date)
-    : QDialog(parent), form_(new QComboBox(this)), views_(new QCheckBox(this)) {
+    : QDialog(parent),
+      form_(named("exportLabels.form", new QComboBox(this))),
+      views_(named("exportLabels.views", new QCheckBox(this))) {
   using Kind = LabelTarget::Kind;
   setObjectName("exportLabels");
   setAttribute(Qt::WA_DeleteOnClose);
   setWindowTitle(tr("Export labels"));
-  form_->setObjectName("exportLabels.form");
-  views_->setObjectName("exportLabels.views");
   views_->setText(tr("With the views as pictures"));
   views_->setChecked(true);
   addForm(tr("Labels (HDF5)"), {Kind::Hdf5});

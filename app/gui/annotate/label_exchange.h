@@ -6,7 +6,6 @@
 #include "app/session/segmentation.h"
 #include "app/session/session.h"
 #include "engine/io/models/labels/label_export.h"
-#include "engine/io/models/labels/label_import.h"
 
 #include <QObject>
 #include <QPointer>
@@ -75,7 +74,6 @@ struct LabelTarget {
   bool has_views = false;                       ///< Whether a folder holds the views as well.
 };
 
-/// Adds the command that exports labels.
 void add_label_export(const Workbench& bench, const SegmentController& segment);
 
 /// Asks for the form, with a warning if the labels are out of date, then for the place.

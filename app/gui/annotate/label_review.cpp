@@ -9,12 +9,12 @@
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/controls/picture.h"
 #include "widgets/controls/text.h"
+#include "widgets/controls/tool_button.h"
 
 #include <QAction>
 #include <QComboBox>
 #include <QDialog>
 #include <QScrollArea>
-#include <QVBoxLayout>
 
 #include <algorithm>
 #include <utility>
@@ -293,21 +293,17 @@ EpiStripView::Epi drawn(const LabelEpi& epi, EpiDirection direction, std::int32_
 StripController::StripController(const Workbench& bench, LabelReviewPanel* panel)
     : QObject(&bench.owner),
       bench_(bench),
-      dialog_(new QDialog(&bench.window)),
-      direction_(new QComboBox(dialog_)),
+      dialog_(named("strip", new QDialog(&bench.window))),
+      direction_(named("strip.direction", new QComboBox(dialog_))),
       strip_view_(new EpiStripView(dialog_)),
       job_(this) {
-  dialog_->setObjectName("strip");
   dialog_->resize(kSize);
-  direction_->setObjectName("strip.direction");
   direction_->addItem(tr("Horizontal EPIs: the views of this row"));
   direction_->addItem(tr("Vertical EPIs: the views of this column"));
   auto* scroll = new QScrollArea(dialog_);
   scroll->setWidgetResizable(true);
   scroll->setWidget(strip_view_);
-  auto* layout = new QVBoxLayout(dialog_);
-  layout->addWidget(direction_);
-  layout->addWidget(scroll, 1);
+  make_column(dialog_, {direction_, {scroll, 1}}, {.margins = kStyleMargins});
   addCommands(panel);
   connect(direction_, &QComboBox::activated, this, &StripController::update);
   connect(&bench.labels, &LabelChoice::changed, this, &StripController::update);

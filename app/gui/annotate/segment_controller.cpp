@@ -5,7 +5,6 @@
 #include "app/gui/scene/viewer_area.h"
 #include "app/gui/shell/commands.h"
 #include "app/gui/shell/frame.h"
-#include "widgets/controls/text.h"
 #include "widgets/panels/segment_panel.h"
 #include "widgets/panels/view_grid.h"
 
@@ -599,41 +598,33 @@ namespace {
 
 using render::Quantity;
 
-// Section of the menu.
 constexpr int kSegmentSection = 0;
 
 }  // namespace
 
 void SegmentController::addRunCommands() {
   const auto has_input = [this] { return live_.has_input(); };
-  bench_.commands.add({.id = "segment.live",
-                       .menu = Menu::Segmentation,
-                       .text = tr("Live"),
-                       .tip = tr("Segments the view again after every stroke"),
-                       .icon = "live",
-                       .keys = {Qt::Key_L},
-                       .run = [this] { setLive(!is_live_); },
-                       .section = kSegmentSection,
-                       .enabled = has_input,
-                       .checked = [this] { return is_live_; }});
-  bench_.commands.add({.id = "segment.update",
-                       .menu = Menu::Segmentation,
-                       .text = tr("Update now"),
-                       .tip = tr("Segments this view from the scribbles"),
-                       .icon = "run",
-                       .keys = {Qt::Key_U},
-                       .run = [this] { updateNow(); },
-                       .section = kSegmentSection,
-                       .enabled = has_input});
-  bench_.commands.add({.id = "segment.all",
-                       .menu = Menu::Segmentation,
-                       .text = tr("Segment all views"),
-                       .tip = tr("Segments all views, with labels that agree along the rays"),
-                       .icon = "tiles",
-                       .keys = {tr("Shift+U")},
-                       .run = [this] { segmentAllViews(); },
-                       .section = kSegmentSection,
-                       .enabled = has_input});
+  bench_.commands.add(
+      {.menu = Menu::Segmentation, .section = kSegmentSection, .enabled = has_input},
+      {{.id = "segment.live",
+        .text = tr("Live"),
+        .tip = tr("Segments the view again after every stroke"),
+        .icon = "live",
+        .keys = {Qt::Key_L},
+        .run = [this] { setLive(!is_live_); },
+        .checked = [this] { return is_live_; }},
+       {.id = "segment.update",
+        .text = tr("Update now"),
+        .tip = tr("Segments this view from the scribbles"),
+        .icon = "run",
+        .keys = {Qt::Key_U},
+        .run = [this] { updateNow(); }},
+       {.id = "segment.all",
+        .text = tr("Segment all views"),
+        .tip = tr("Segments all views, with labels that agree along the rays"),
+        .icon = "tiles",
+        .keys = {tr("Shift+U")},
+        .run = [this] { segmentAllViews(); }}});
 }
 
 void SegmentController::addExportCommands() {
@@ -651,21 +642,18 @@ void SegmentController::addExportCommands() {
 void SegmentController::addSmoothingCommands() {
   constexpr double kStep_px = 0.5;
   bench_.commands.add(
-      {.id = "segment.smoother",
-       .menu = Menu::Segmentation,
-       .text = tr("Smoother boundaries"),
-       .tip = tr("Smooths the boundaries of all labels by half a pixel more; can be undone"),
-       .keys = {tr("Shift+S")},
-       .run = [this] { smoothBoundaries(smoothing() + kStep_px); },
-       .section = kSegmentSection,
-       .enabled = [this] { return live_.has_input(); }});
-  bench_.commands.add({.id = "segment.less_smooth",
-                       .menu = Menu::Segmentation,
-                       .text = tr("Less smooth boundaries"),
-                       .tip = tr("Smooths the boundaries of all labels by half a pixel less"),
-                       .run = [this] { smoothBoundaries(smoothing() - kStep_px); },
-                       .section = kSegmentSection,
-                       .enabled = [this] { return smoothing() > 0; }});
+      {.menu = Menu::Segmentation, .section = kSegmentSection},
+      {{.id = "segment.smoother",
+        .text = tr("Smoother boundaries"),
+        .tip = tr("Smooths the boundaries of all labels by half a pixel more; can be undone"),
+        .keys = {tr("Shift+S")},
+        .run = [this] { smoothBoundaries(smoothing() + kStep_px); },
+        .enabled = [this] { return live_.has_input(); }},
+       {.id = "segment.less_smooth",
+        .text = tr("Less smooth boundaries"),
+        .tip = tr("Smooths the boundaries of all labels by half a pixel less"),
+        .run = [this] { smoothBoundaries(smoothing() - kStep_px); },
+        .enabled = [this] { return smoothing() > 0; }}});
 }
 
 void SegmentController::addOverlayCommands() {

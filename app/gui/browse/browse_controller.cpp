@@ -15,6 +15,7 @@
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/controls/picture.h"
 #include "widgets/controls/theme.h"
+#include "widgets/controls/tool_button.h"
 #include "widgets/panels/overlay_bar.h"
 #include "widgets/panels/view_grid.h"
 
@@ -132,8 +133,7 @@ void BrowseController::connectCanvas() {
 
 void BrowseController::showMenu(PixelIndex pixel, QPoint place) {
   if (viewer_area_.isPreviewing()) return;
-  auto* menu = new QMenu(&bench_.window);
-  menu->setObjectName("view.menu");
+  auto* menu = named("view.menu", new QMenu(&bench_.window));
   menu->setAttribute(Qt::WA_DeleteOnClose);
   menu->addAction(tr("Focus here"), this, [this, pixel] { focusAt(pixel); })
       ->setObjectName("view.menu.focus");
@@ -414,16 +414,8 @@ void BrowseController::goToCenter() {
     session_.set_view(session_.light_field()->center());
 }
 
-void BrowseController::togglePlay() {
-  grid_->setPlaying(!grid_->isPlaying());
-}
-
 void BrowseController::stepFocus(double steps) {
   viewer_area_.overlayBar()->stepFocus(steps);
-}
-
-void BrowseController::resetFocus() {
-  session_.set_focus(0);
 }
 
 void BrowseController::setRefocusing(bool refocuses) {
@@ -445,20 +437,17 @@ bool BrowseController::endWhatIsInHand() {
 
 void BrowseController::addStep(const QString& id, const QString& text, const QString& tip, int dv,
                                int du, Qt::Key key) {
-  bench_.commands.add({.id = "view." + id,
-                       .menu = Menu::Views,
-                       .text = text,
-                       .tip = tip,
-                       .keys = {QKeySequence(key)},
-                       .run = [this, dv, du] { step(dv, du); },
-                       .section = section::kWalk});
-  bench_.commands.add({.id = "view." + id + "_most",
-                       .menu = Menu::Views,
-                       .text = tr("%1, to the end").arg(text),
-                       .tip = tr("%1, at the end of the grid").arg(tip),
-                       .keys = {QKeySequence(Qt::ShiftModifier | key)},
-                       .run = [this, dv, du] { jump(dv, du); },
-                       .section = section::kWalk});
+  bench_.commands.add({.menu = Menu::Views, .section = section::kWalk},
+                      {{.id = "view." + id,
+                        .text = text,
+                        .tip = tip,
+                        .keys = {QKeySequence(key)},
+                        .run = [this, dv, du] { step(dv, du); }},
+                       {.id = "view." + id + "_most",
+                        .text = tr("%1, to the end").arg(text),
+                        .tip = tr("%1, at the end of the grid").arg(tip),
+                        .keys = {QKeySequence(Qt::ShiftModifier | key)},
+                        .run = [this, dv, du] { jump(dv, du); }}});
 }
 
 void BrowseController::addWalkCommands() {
@@ -479,7 +468,7 @@ void BrowseController::addWalkCommands() {
                                        .tip = tr("Plays the views one after the other, or pauses"),
                                        .icon = "play",
                                        .keys = {Qt::Key_Space},
-                                       .run = [this] { togglePlay(); },
+                                       .run = [this] { grid_->setPlaying(!grid_->isPlaying()); },
                                        .section = section::kWalk,
                                        .scope = KeyScope::Viewer});
   grid_->followTip(play);
@@ -525,7 +514,7 @@ void BrowseController::addFocusCommands() {
   add("view.focus_farther", tr("Focus farther"), tr("Moves the focus plane to smaller disparities"),
       tr("Ctrl+Alt+Down"), [this] { stepFocus(-1); });
   add("view.focus_reset", tr("Focus at zero"), tr("Moves the focus plane back to zero disparity"),
-      tr("Ctrl+Alt+0"), [this] { resetFocus(); });
+      tr("Ctrl+Alt+0"), [this] { session_.set_focus(0); });
   bench_.commands.add({.id = "view.refocus",
                        .menu = Menu::View,
                        .text = tr("Refocus the view"),

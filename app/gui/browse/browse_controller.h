@@ -29,9 +29,7 @@ class BrowseController : public QObject {
   void step(int dv, int du);
   void jump(int dv, int du);
   void goToCenter();
-  void togglePlay();
   void stepFocus(double steps);
-  void resetFocus();
   /// Refocuses the view at the focus plane, or only shears the EPIs.
   void setRefocusing(bool refocuses);
   /// Stops playing, or removes the line drawn in an EPI; false if there was neither.

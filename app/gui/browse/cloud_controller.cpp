@@ -14,7 +14,6 @@
 #include <QLocale>
 #include <QSettings>
 #include <QToolButton>
-#include <QVBoxLayout>
 
 #include <algorithm>
 #include <utility>
@@ -103,10 +102,6 @@ void CloudController::hear(Parts parts) {
   }
 }
 
-bool CloudController::isOnScreen() const {
-  return panel_ && panel_->display().isVisible();
-}
-
 void CloudController::makePanel() {
   if (panel_) return;
   panel_ = new PointCloudPanel(tab_);
@@ -116,9 +111,7 @@ void CloudController::makePanel() {
   for (const char* id : {"cloud.large", "cloud.window"}) {
     panel_->addButton(make_action_button(bench_.commands.find(id), id, panel_));
   }
-  auto* layout = new QVBoxLayout(tab_);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->addWidget(panel_);
+  make_column(tab_, {panel_});
   connectPanel();
   if (isOnScreen()) update();
 }

@@ -15,8 +15,6 @@
 
 namespace episcope {
 
-struct EstimateEntry;
-
 /// Turns a choice of the 3D view into a request to the session in its current state. Shows the
 /// current result, or the ground truth if there is none.
 class CloudRequests {
@@ -88,7 +86,7 @@ class CloudController : public QObject {
   void showHint(const QString& hint);
   void start(const PointCloudRequest& request);
   void show(const Made& made);
-  [[nodiscard]] bool isOnScreen() const;
+  [[nodiscard]] bool isOnScreen() const { return panel_ && panel_->display().isVisible(); }
   [[nodiscard]] QString summary(const Made& made) const;
 
   Workbench bench_;

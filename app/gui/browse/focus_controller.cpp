@@ -9,7 +9,6 @@
 #include "app/gui/shell/frame.h"
 #include "app/gui/shell/jobs.h"
 #include "app/session/scene_summary.h"
-#include "app/session/session.h"
 #include "engine/core/error.h"
 #include "engine/core/shear.h"
 #include "widgets/controls/text.h"
@@ -23,29 +22,21 @@ FocusController::FocusController(const Workbench& bench)
 }
 
 void FocusController::addCommands() {
-  QAction* apply =
-      bench_.commands.add({.id = "view.focus_apply",
-                           .menu = Menu::View,
-                           .text = tr("Apply focus plane"),
-                           .tip = tr("Shifts all disparities, including results and ground truth, "
-                                     "so that the focus plane has disparity 0"),
-                           .icon = "apply",
-                           .keys = {tr("Ctrl+Alt+Return")},
-                           .run = [this] { this->apply(); },
-                           .section = section::kFocus,
-                           .enabled = [this] { return canApply(); }});
-  bench_.commands.add({.id = "view.focus_undo",
-                       .menu = Menu::View,
-                       .text = tr("Undo applied focus plane"),
-                       .tip = tr("Restores the disparities of the files"),
-                       .run = [this] { undo(); },
-                       .section = section::kFocus,
-                       .enabled = [this] { return canUndo(); }});
-  bench_.viewer_area.overlayBar()->addFocusAction(apply);
-}
-
-bool FocusController::canApply() const {
-  return session_.scene() && session_.focus_px() != 0;
+  bench_.commands.add({.menu = Menu::View, .section = section::kFocus},
+                      {{.id = "view.focus_apply",
+                        .text = tr("Apply focus plane"),
+                        .tip = tr("Shifts all disparities, including results and ground truth, "
+                                  "so that the focus plane has disparity 0"),
+                        .icon = "apply",
+                        .keys = {tr("Ctrl+Alt+Return")},
+                        .run = [this] { this->apply(); },
+                        .enabled = [this] { return canApply(); }},
+                       {.id = "view.focus_undo",
+                        .text = tr("Undo applied focus plane"),
+                        .tip = tr("Restores the disparities of the files"),
+                        .run = [this] { undo(); },
+                        .enabled = [this] { return canUndo(); }}});
+  bench_.viewer_area.overlayBar()->addFocusAction(bench_.commands.find("view.focus_apply"));
 }
 
 bool FocusController::canUndo() const {
@@ -54,10 +45,6 @@ bool FocusController::canUndo() const {
 
 void FocusController::apply() {
   if (canApply()) bake(session_.scene()->convention.focus_px + session_.focus_px());
-}
-
-void FocusController::undo() {
-  if (canUndo()) bake(0);
 }
 
 void FocusController::bake(double focus_px) {

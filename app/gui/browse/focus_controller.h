@@ -4,6 +4,7 @@
 #include "app/gui/shell/workbench.h"
 #include "app/session/open_scene.h"
 #include "app/session/run_estimator.h"
+#include "app/session/session.h"
 #include "engine/core/jobs.h"
 
 #include <QObject>
@@ -23,8 +24,10 @@ class FocusController : public QObject {
   /// Shifts disparities so that the focus plane has disparity 0.
   void apply();
   /// Restores the zero plane of the files.
-  void undo();
-  [[nodiscard]] bool canApply() const;
+  void undo() {
+    if (canUndo()) bake(0);
+  }
+  [[nodiscard]] bool canApply() const { return session_.scene() && session_.focus_px() != 0; }
   [[nodiscard]] bool canUndo() const;
 
  private:

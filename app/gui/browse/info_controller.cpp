@@ -19,6 +19,7 @@
 #include "widgets/controls/parameter_form.h"
 #include "widgets/controls/text.h"
 #include "widgets/controls/theme.h"
+#include "widgets/controls/tool_button.h"
 #include "widgets/panels/info_panel.h"
 
 #include <QAction>
@@ -33,7 +34,6 @@
 #include <QString>
 #include <QStringList>
 #include <QTreeWidget>
-#include <QVBoxLayout>
 #include <QWidget>
 
 #include <algorithm>
@@ -122,8 +122,8 @@ io::PatternPreview preview_of(const std::string& folder, const std::string& patt
 PatternPanel::PatternPanel(const QString& path, QWidget* parent)
     : QWidget(parent),
       folder_(QFileInfo(path).isDir() ? path : QFileInfo(path).absolutePath()),
-      summary_(new QLabel(this)),
-      names_(new QTreeWidget(this)),
+      summary_(named("pattern.summary", new QLabel(this))),
+      names_(named("pattern.names", new QTreeWidget(this))),
       job_(this) {
   auto* help = new QLabel(
       tr("{row} and {col} stand for the numbers of a view, {index} for a running number, {x} and "
@@ -133,10 +133,8 @@ PatternPanel::PatternPanel(const QString& path, QWidget* parent)
   help->setTextFormat(Qt::PlainText);
   help->setWordWrap(true);
   help->setPalette(theme::text_palette(theme::muted_text(palette())));
-  summary_->setObjectName("pattern.summary");
   summary_->setTextFormat(Qt::PlainText);
   summary_->setWordWrap(true);
-  names_->setObjectName("pattern.names");
   names_->setHeaderLabels({tr("File"), tr("Row"), tr("Column"), tr("Number"), tr("View")});
   names_->setRootIsDecorated(false);
   names_->setUniformRowHeights(true);
@@ -148,11 +146,7 @@ PatternPanel::PatternPanel(const QString& path, QWidget* parent)
     names_->header()->setSectionResizeMode(column, QHeaderView::Fixed);
     names_->header()->resizeSection(column, kNumberWidth);
   }
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->addWidget(help);
-  layout->addWidget(names_, 1);
-  layout->addWidget(summary_);
+  make_column(this, {help, {names_, 1}, summary_});
 }
 
 void PatternPanel::preview(const std::string& pattern, bool is_snake) {
@@ -233,9 +227,7 @@ ConventionsDialog::ConventionsDialog(const QString& path,
   QPushButton* reset = buttons->button(QDialogButtonBox::RestoreDefaults);
   reset->setText(tr("All automatic"));
   reset->setObjectName("conventions.reset");
-  auto* layout = new QVBoxLayout(this);
-  layout->addWidget(file);
-  layout->addWidget(form_);
+  auto* layout = make_column(this, {file, form_}, {.margins = kStyleMargins});
   const bool has_names = has_option(options, "pattern");
   if (has_names) {
     layout->addWidget(makePatternPanel(path), 1);

@@ -5,7 +5,6 @@
 #include "app/gui/shell/commands.h"
 #include "app/gui/shell/dialogs.h"
 #include "app/gui/shell/frame.h"
-#include "app/session/session.h"
 #include "widgets/canvas/epi_pane.h"
 #include "widgets/controls/text.h"
 #include "widgets/panels/measure_panel.h"
@@ -116,10 +115,6 @@ EpiPane* MeasureController::pane(EpiDirection direction) const {
                                                : bench_.viewer_area.verticalEpi();
 }
 
-const Measurements& MeasureController::measured() const {
-  return bench_.session.place().measured;
-}
-
 QString MeasureController::nextName() const {
   const auto is_taken = [this](const QString& name) {
     return std::ranges::any_of(measured().list, [&](const EpiMeasurement& each) {
@@ -129,10 +124,6 @@ QString MeasureController::nextName() const {
   int number = 1;
   while (is_taken(tr("line %1").arg(number))) ++number;
   return tr("line %1").arg(number);
-}
-
-void MeasureController::update(Parts parts) {
-  if (parts.has_any(Part::Measured | Part::Scene)) show();
 }
 
 void MeasureController::show() {
@@ -204,17 +195,9 @@ void MeasureController::remove(int index) {
   bench_.session.set_measurements(fewer);
 }
 
-void MeasureController::removeCurrent() {
-  remove(measured().current);
-}
-
 void MeasureController::nameCurrent() {
   bench_.frame.showTab("measure");
   panel_->editName(measured().current);
-}
-
-void MeasureController::focusOnCurrent() {
-  bench_.session.set_focus(current_of(measured())->disparity_px);
 }
 
 std::string MeasureController::csv() const {

@@ -3,6 +3,7 @@
 
 #include "app/gui/shell/workbench.h"
 #include "app/session/open_scene.h"
+#include "app/session/session.h"
 
 #include <QKeySequence>
 #include <QObject>
@@ -37,19 +38,21 @@ class MeasureController : public QObject {
   void addCommands();
   void addCommand(const Row& row);
   void connectPanel();
-  void update(Parts parts);
+  void update(Parts parts) {
+    if (parts.has_any(Part::Measured | Part::Scene)) show();
+  }
   void show();
   void showLine();
   void rename(int index, const QString& name);
   void remove(int index);
-  void removeCurrent();
+  void removeCurrent() { remove(measured().current); }
   void nameCurrent();
-  void focusOnCurrent();
+  void focusOnCurrent() { bench_.session.set_focus(current_of(measured())->disparity_px); }
   void copy();
   void save();
   [[nodiscard]] std::string csv() const;
   [[nodiscard]] EpiPane* pane(EpiDirection direction) const;
-  [[nodiscard]] const Measurements& measured() const;
+  [[nodiscard]] const Measurements& measured() const { return bench_.session.place().measured; }
   [[nodiscard]] QString nextName() const;
 
   Workbench bench_;

@@ -10,11 +10,11 @@
 #include "engine/render/shade.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/controls/text.h"
+#include "widgets/controls/tool_button.h"
 #include "widgets/panels/value_bar.h"
 
 #include <QDialog>
 #include <QSettings>
-#include <QVBoxLayout>
 
 #include <algorithm>
 #include <utility>
@@ -160,13 +160,11 @@ QStringList ValueController::pixelText(PixelIndex pixel) const {
 ToneController::ToneController(const Workbench& bench)
     : QObject(&bench.owner),
       bench_(bench),
-      dialog_(new QDialog(&bench.window)),
+      dialog_(named("tone", new QDialog(&bench.window))),
       panel_(new TonePanel(dialog_)),
       job_(this) {
-  dialog_->setObjectName("tone");
   dialog_->setWindowTitle(tr("Brightness"));
-  auto* layout = new QVBoxLayout(dialog_);
-  layout->addWidget(panel_);
+  auto* layout = make_column(dialog_, {panel_}, {.margins = kStyleMargins});
   layout->setSizeConstraint(QLayout::SetFixedSize);
   addCommands();
   connect(panel_, &TonePanel::toneEdited, this,
@@ -177,30 +175,25 @@ ToneController::ToneController(const Workbench& bench)
 
 void ToneController::addCommands() {
   const auto has_scene = [this] { return bench_.session.scene() != nullptr; };
-  bench_.commands.add({.id = "view.tone",
-                       .menu = Menu::View,
-                       .text = tr("Brightness…"),
-                       .tip = tr("Exposure, gamma and black point of the views, for display only"),
-                       .keys = {tr("Shift+B")},
-                       .run = [this] { dialog_->show(); },
-                       .section = section::kZoom,
-                       .enabled = has_scene});
-  bench_.commands.add({.id = "view.auto_tone",
-                       .menu = Menu::View,
-                       .text = tr("Automatic brightness"),
-                       .tip = tr("Brightens dark views, or shows them unchanged"),
-                       .keys = {tr("Shift+A")},
-                       .run =
-                           [this] {
-                             if (bench_.session.place().tone.is_plain()) {
-                               brighten();
-                             } else {
-                               bench_.session.set_tone({});
-                             }
-                           },
-                       .section = section::kZoom,
-                       .enabled = has_scene,
-                       .checked = [this] { return !bench_.session.place().tone.is_plain(); }});
+  bench_.commands.add({.menu = Menu::View, .section = section::kZoom, .enabled = has_scene},
+                      {{.id = "view.tone",
+                        .text = tr("Brightness…"),
+                        .tip = tr("Exposure, gamma and black point of the views, for display only"),
+                        .keys = {tr("Shift+B")},
+                        .run = [this] { dialog_->show(); }},
+                       {.id = "view.auto_tone",
+                        .text = tr("Automatic brightness"),
+                        .tip = tr("Brightens dark views, or shows them unchanged"),
+                        .keys = {tr("Shift+A")},
+                        .run =
+                            [this] {
+                              if (bench_.session.place().tone.is_plain()) {
+                                brighten();
+                              } else {
+                                bench_.session.set_tone({});
+                              }
+                            },
+                        .checked = [this] { return !bench_.session.place().tone.is_plain(); }}});
 }
 
 void ToneController::update(Parts parts) {

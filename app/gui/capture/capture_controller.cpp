@@ -17,6 +17,7 @@
 #include "engine/core/error.h"
 #include "engine/io/formats/write_scene.h"
 #include "widgets/canvas/view_canvas.h"
+#include "widgets/controls/tool_button.h"
 #include "widgets/panels/capture_panel.h"
 #include "widgets/panels/raw_picture_panel.h"
 
@@ -27,7 +28,6 @@
 #include <QKeyEvent>
 #include <QLocale>
 #include <QTabWidget>
-#include <QVBoxLayout>
 
 #include <array>
 #include <cmath>
@@ -232,8 +232,7 @@ void CaptureController::followGantry() {
 
 void CaptureController::makePanel() {
   if (panel_) return;
-  auto* pages = new QTabWidget(tab_);
-  pages->setObjectName("capture.pages");
+  auto* pages = named("capture.pages", new QTabWidget(tab_));
   pages->setDocumentMode(true);
   panel_ = new CapturePanel(pages);
   QStringList mosaics;
@@ -243,9 +242,7 @@ void CaptureController::makePanel() {
   pages->addTab(raw, tr("Raw picture"));
   connect(raw_pictures_, &RawPictures::begun, pages,
           [pages, raw] { pages->setCurrentWidget(raw); });
-  auto* layout = new QVBoxLayout(tab_);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->addWidget(pages);
+  make_column(tab_, {pages});
   connectObjects();
   connectPairs();
   connectResults();

@@ -88,8 +88,6 @@ class MeshShelf : public QObject {
   std::map<std::string, quint64> reading_;  // with its newest job
   std::set<std::string> broken_;
 };
-
-class CaptureDocument;
 class CaptureDocuments;
 class CapturePanel;
 class MeshResults;

@@ -9,6 +9,7 @@
 #include "engine/core/error.h"
 #include "engine/core/parameter.h"
 #include "widgets/controls/parameter_form.h"
+#include "widgets/controls/tool_button.h"
 
 #include <QCoreApplication>
 #include <QDialog>
@@ -16,7 +17,6 @@
 #include <QDir>
 #include <QFileInfo>
 #include <QPushButton>
-#include <QVBoxLayout>
 
 #include <algorithm>
 #include <cmath>
@@ -83,8 +83,7 @@ CaptureWork work_of(const GantryFolder& demo) {
 
 void ask_for_values(QWidget* window, const FormQuestion& question,
                     std::function<void(const ParameterSet&)> answer) {
-  auto* dialog = new QDialog(window);
-  dialog->setObjectName(question.name);
+  auto* dialog = named(question.name, new QDialog(window));
   dialog->setWindowTitle(question.title);
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   auto* form = new ParameterForm(dialog);
@@ -94,9 +93,7 @@ void ask_for_values(QWidget* window, const FormQuestion& question,
   auto* accept = buttons->addButton(question.accept, QDialogButtonBox::AcceptRole);
   accept->setObjectName(question.name + ".accept");
   accept->setDefault(true);
-  auto* layout = new QVBoxLayout(dialog);
-  layout->addWidget(form);
-  layout->addWidget(buttons);
+  make_column(dialog, {form, buttons}, {.margins = kStyleMargins});
   QObject::connect(buttons, &QDialogButtonBox::accepted, dialog, &QDialog::accept);
   QObject::connect(buttons, &QDialogButtonBox::rejected, dialog, &QDialog::reject);
   QObject::connect(dialog, &QDialog::accepted, window,

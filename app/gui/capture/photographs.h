@@ -29,7 +29,6 @@
 namespace episcope {
 
 class CaptureDocuments;
-class PhotographSteps;
 
 /// Calibrates a camera from photographs of a pattern, and rectifies open photographs into a light
 /// field with aligned rows and columns.
@@ -97,7 +96,6 @@ class CaptureDocuments : public QObject {
   /// Meshes of all open light fields.
   [[nodiscard]] std::set<std::string> meshes() const;
 
-  /// Changes the document of the shown light field.
   void change(const std::function<void(CaptureDocument&)>& change);
   /// Changes the document of the light field that was shown when `Session::generation` was `scene`.
   /// Work begun without a light field goes to the one opened next. Returns false, and does nothing,
@@ -141,7 +139,6 @@ class CaptureDocuments : public QObject {
 /// Mesh point in the coordinates of the 3D view.
 [[nodiscard]] std::array<double, 3> in_mesh_view(const capture::Point3& point);
 
-/// Pairs as rows of the table.
 [[nodiscard]] std::vector<CaptureRow> pair_rows(const std::vector<capture::PointPair>& pairs,
                                                 const std::optional<capture::SolvedPose>& pose);
 

@@ -13,10 +13,7 @@
 #include "widgets/controls/text.h"
 #include "widgets/panels/raw_picture_panel.h"
 
-#include <QFileInfo>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 

@@ -32,6 +32,25 @@ QStringList value_text(const QuantityMap& map, int y, int x) {
   return value ? QStringList(number_text(*value)) : QStringList();
 }
 
+// Runs on a worker. Throws Cancelled.
+std::vector<TilePicture> make_tile_pictures(const std::vector<TileRequest>& requests,
+                                            const Progress& progress) {
+  std::vector<TilePicture> pictures(requests.size());
+  // All tiles are of one scene.
+  const auto tone = requests.empty() ? nullptr : render::table_of(requests.front().tone);
+  parallel_for(static_cast<int>(requests.size()), progress, [&](int i) {
+    const TileRequest& request = requests[static_cast<std::size_t>(i)];
+    TilePicture& picture = pictures[static_cast<std::size_t>(i)];
+    if (request.source) picture.map = make_map(*request.source);
+    RgbaImage drawn = render::shade_view(*request.light_field, request.view, tone.get());
+    if (picture.map) {
+      drawn = over_view(std::move(drawn), *picture.map, request.shading, request.look);
+    }
+    picture.picture = to_qimage(std::move(drawn)).convertToFormat(QImage::Format_RGB32);
+  });
+  return pictures;
+}
+
 }  // namespace
 
 CompareController::CompareController(const Workbench& bench, CompareBar* bar)
@@ -126,10 +145,6 @@ bool CompareController::isAvailable(CompareMode mode) const {
   if (mode == CompareMode::Single) return true;
   if (!session_.scene()) return false;
   return session_.side_a() || (mode == CompareMode::Wall && session_.has_truth(session_.view()));
-}
-
-void CompareController::toggleMode(CompareMode mode) {
-  setMode(mode_ == mode ? CompareMode::Single : mode);
 }
 
 void CompareController::setMode(CompareMode mode) {
@@ -460,24 +475,6 @@ void CompareController::addCommands() {
 bool is_same(const TileRequest& a, const TileRequest& b) {
   return a.light_field == b.light_field && a.view == b.view && a.source == b.source &&
          render::is_same(a.shading, b.shading) && a.look == b.look && a.tone == b.tone;
-}
-
-std::vector<TilePicture> make_tile_pictures(const std::vector<TileRequest>& requests,
-                                            const Progress& progress) {
-  std::vector<TilePicture> pictures(requests.size());
-  // All tiles are of one scene.
-  const auto tone = requests.empty() ? nullptr : render::table_of(requests.front().tone);
-  parallel_for(static_cast<int>(requests.size()), progress, [&](int i) {
-    const TileRequest& request = requests[static_cast<std::size_t>(i)];
-    TilePicture& picture = pictures[static_cast<std::size_t>(i)];
-    if (request.source) picture.map = make_map(*request.source);
-    RgbaImage drawn = render::shade_view(*request.light_field, request.view, tone.get());
-    if (picture.map) {
-      drawn = over_view(std::move(drawn), *picture.map, request.shading, request.look);
-    }
-    picture.picture = to_qimage(std::move(drawn)).convertToFormat(QImage::Format_RGB32);
-  });
-  return pictures;
 }
 
 }  // namespace episcope

@@ -21,7 +21,6 @@ class CompareBar;
 class TileWall;
 class ViewCanvas;
 
-/// Request for a tile: a view, with a map if there is one.
 struct TileRequest {
   LightFieldPtr light_field;
   ViewIndex view;
@@ -38,10 +37,6 @@ struct TilePicture {
   QuantityMapPtr map;  ///< Null without a map.
 };
 
-/// Runs on a worker. Throws Cancelled.
-[[nodiscard]] std::vector<TilePicture> make_tile_pictures(const std::vector<TileRequest>& requests,
-                                                          const Progress& progress);
-
 /// Arranges results for comparison: wipe, side by side, or a wall of all results.
 class CompareController : public QObject {
   Q_OBJECT
@@ -50,7 +45,7 @@ class CompareController : public QObject {
   CompareController(const Workbench& bench, CompareBar* bar);
 
   /// Ignored if there is nothing to compare. Choosing the current mode again ends it.
-  void toggleMode(CompareMode mode);
+  void toggleMode(CompareMode mode) { setMode(mode_ == mode ? CompareMode::Single : mode); }
   void setMode(CompareMode mode);
   [[nodiscard]] CompareMode mode() const { return mode_; }
   /// Whether a mode has something to show now.

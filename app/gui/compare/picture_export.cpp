@@ -11,11 +11,11 @@
 #include "engine/io/base/image_file.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/controls/picture.h"
+#include "widgets/controls/tool_button.h"
 #include "widgets/panels/movie_panel.h"
 
 #include <QCoreApplication>
 #include <QDialog>
-#include <QVBoxLayout>
 
 #include <filesystem>
 #include <map>
@@ -81,23 +81,19 @@ void ask_for_map(const Workbench& bench) {
 
 void add_picture_export(const Workbench& bench) {
   const auto has_scene = [&session = bench.session] { return session.scene() != nullptr; };
-  bench.commands.add({.id = "file.save_picture",
-                      .menu = Menu::Export,
-                      .text = PictureExportText::tr("Picture…"),
-                      .tip = PictureExportText::tr(
-                          "Saves the view as it is shown, with its brightness and overlay, as PNG"),
-                      .icon = "save",
-                      .keys = {PictureExportText::tr("Ctrl+Shift+E")},
-                      .run = [bench] { ask_for_picture(bench); },
-                      .section = section::kPictures,
-                      .enabled = has_scene});
-  bench.commands.add({.id = "file.save_map",
-                      .menu = Menu::Export,
-                      .text = PictureExportText::tr("Map…"),
-                      .tip = PictureExportText::tr("Saves the map drawn over the view as PNG"),
-                      .run = [bench] { ask_for_map(bench); },
-                      .section = section::kPictures,
-                      .enabled = has_scene});
+  bench.commands.add(
+      {.menu = Menu::Export, .section = section::kPictures, .enabled = has_scene},
+      {{.id = "file.save_picture",
+        .text = PictureExportText::tr("Picture…"),
+        .tip = PictureExportText::tr(
+            "Saves the view as it is shown, with its brightness and overlay, as PNG"),
+        .icon = "save",
+        .keys = {PictureExportText::tr("Ctrl+Shift+E")},
+        .run = [bench] { ask_for_picture(bench); }},
+       {.id = "file.save_map",
+        .text = PictureExportText::tr("Map…"),
+        .tip = PictureExportText::tr("Saves the map drawn over the view as PNG"),
+        .run = [bench] { ask_for_map(bench); }}});
 }
 
 void save_picture(const Workbench& bench, const QString& path) {
@@ -183,12 +179,10 @@ MovieSubject subject_of(const Workbench& bench, MovieKind kind, bool with_overla
 MovieExport::MovieExport(const Workbench& bench)
     : QObject(&bench.owner),
       bench_(bench),
-      dialog_(new QDialog(&bench.window)),
+      dialog_(named("movie", new QDialog(&bench.window))),
       panel_(new MoviePanel(dialog_)) {
-  dialog_->setObjectName("movie");
   dialog_->setWindowTitle(tr("Save a movie"));
-  auto* layout = new QVBoxLayout(dialog_);
-  layout->addWidget(panel_);
+  auto* layout = make_column(dialog_, {panel_}, {.margins = kStyleMargins});
   layout->setSizeConstraint(QLayout::SetFixedSize);
   connect(panel_, &MoviePanel::saveRequested, this, &MovieExport::ask);
   connect(panel_, &MoviePanel::cancelRequested, dialog_, &QDialog::reject);

@@ -8,7 +8,6 @@
 #include "app/gui/shell/dialogs.h"
 #include "app/gui/shell/frame.h"
 #include "app/gui/shell/jobs.h"
-#include "app/session/session.h"
 #include "engine/io/models/sidecar_maps/map_file.h"
 #include "widgets/canvas/canvas_geometry.h"
 #include "widgets/canvas/view_canvas.h"
@@ -108,14 +107,6 @@ void RegionController::connectTool() {
         choose(JudgedPixels::Rectangle);
       },
       Qt::QueuedConnection);  // the canvas is still busy with the release
-}
-
-const JudgedPart& RegionController::now() const {
-  return bench_.session.place().judged;
-}
-
-void RegionController::set(const JudgedPart& part) {
-  bench_.session.set_judged(bench_.session.generation(), part);
 }
 
 PixelRect RegionController::clipped(PixelRect rectangle) const {

@@ -4,6 +4,7 @@
 #include "app/gui/shell/workbench.h"
 #include "app/session/judge.h"
 #include "app/session/open_scene.h"
+#include "app/session/session.h"
 #include "engine/core/image.h"
 #include "engine/core/indices.h"
 #include "widgets/canvas/canvas_tool.h"
@@ -65,8 +66,8 @@ class RegionController : public QObject {
   void update(Parts parts);
   void refresh();
   void showOutline();
-  [[nodiscard]] const JudgedPart& now() const;
-  void set(const JudgedPart& part);
+  [[nodiscard]] const JudgedPart& now() const { return bench_.session.place().judged; }
+  void set(const JudgedPart& part) { bench_.session.set_judged(bench_.session.generation(), part); }
   [[nodiscard]] RegionPtr makeRegion();
   [[nodiscard]] RegionPtr maskRegion();
   [[nodiscard]] RegionPtr truthRegion() const;

@@ -12,7 +12,6 @@
 #include <QString>
 
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace episcope {
@@ -57,7 +56,6 @@ class StatisticsController : public QObject {
 };
 
 class ErrorPlotPanel;
-struct EstimateEntry;
 class RegionController;
 class Session;
 

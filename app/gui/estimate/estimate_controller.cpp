@@ -192,7 +192,9 @@ void EstimateController::connectResults() {
   connect(results_, &ResultList::exportRequested, this,
           with_entry([this](const EstimateEntry& entry) { ask_to_export(bench_, entry); }));
   connect(results_, &ResultList::copyCommandRequested, this,
-          with_entry([this](const EstimateEntry& entry) { copyCommandOf(entry); }));
+          with_entry([this](const EstimateEntry& entry) {
+            copy(command_line_for(*entry.estimate, session_.input(), session_.reading_options()));
+          }));
   connect(results_, &ResultList::noteRequested, this,
           with_entry([this](const EstimateEntry& entry) { askForNote(entry); }));
   connect(results_, &ResultList::reuseRequested, this,
@@ -200,8 +202,7 @@ void EstimateController::connectResults() {
 }
 
 void EstimateController::askForNote(const EstimateEntry& entry) {
-  auto* dialog = new QInputDialog(&bench_.window);
-  dialog->setObjectName("result_note");
+  auto* dialog = named("result_note", new QInputDialog(&bench_.window));
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   dialog->setWindowTitle(tr("Note"));
   dialog->setLabelText(tr("Note on %1:").arg(QString::fromStdString(entry.name)));
@@ -234,10 +235,6 @@ void EstimateController::showRunning() {
 
 void EstimateController::cancel() {
   bench_.job_cancel.cancel(runs_.jobsOn(session_.generation()));
-}
-
-void EstimateController::removeShown() {
-  if (const EstimateEntry* shown = session_.shown()) remove(shown->id);
 }
 
 void EstimateController::remove(int id) {
@@ -336,10 +333,6 @@ void EstimateController::copyCommand() {
                         session_.input(), session_.reading_options()));
 }
 
-void EstimateController::copyCommandOf(const EstimateEntry& entry) {
-  copy(command_line_for(*entry.estimate, session_.input(), session_.reading_options()));
-}
-
 void EstimateController::copy(const std::string& command) {
   QGuiApplication::clipboard()->setText(QString::fromStdString(command));
   bench_.messages.hint(tr("Copied: %1").arg(QString::fromStdString(command)));
@@ -353,7 +346,6 @@ void EstimateController::reuse(const EstimateEntry& entry) {
 
 namespace {
 
-// Sections of the menu.
 constexpr int kMethodSection = 0;
 constexpr int kResultSection = 1;
 
@@ -364,30 +356,25 @@ void EstimateController::addCommands() {
   const auto can_run = [this] {
     return why_nothing_runs(bench_.session, bench_.viewer_area).isEmpty();
   };
-  bench_.commands.add({.id = "estimate.run",
-                       .menu = Menu::Estimate,
-                       .text = tr("Run"),
-                       .tip = tr("Runs the chosen method with the parameters of the form"),
-                       .icon = "run",
-                       .keys = {Qt::Key_F5, tr("Ctrl+Return")},
-                       .run = [this] { run(); },
-                       .section = kMethodSection,
-                       .enabled = can_run});
-  bench_.commands.add({.id = "estimate.batch",
-                       .menu = Menu::Estimate,
-                       .text = tr("Run on several…"),
-                       .tip = tr("Runs one or several methods on open light fields"),
-                       .keys = {tr("Shift+F5")},
-                       .run = [this] { ask_for_batch(bench_, runs_, method_->request()); },
-                       .section = kMethodSection,
-                       .enabled = has_scene});
-  bench_.commands.add({.id = "estimate.sweep",
-                       .menu = Menu::Estimate,
-                       .text = tr("Sweep parameters…"),
-                       .tip = tr("Runs the method with several values of one or two parameters"),
-                       .keys = {tr("Ctrl+Shift+F5")},
-                       .run = [this] { bench_.frame.showTab("sweep"); },
-                       .section = kMethodSection});
+  bench_.commands.add({.menu = Menu::Estimate, .section = kMethodSection},
+                      {{.id = "estimate.run",
+                        .text = tr("Run"),
+                        .tip = tr("Runs the chosen method with the parameters of the form"),
+                        .icon = "run",
+                        .keys = {Qt::Key_F5, tr("Ctrl+Return")},
+                        .run = [this] { run(); },
+                        .enabled = can_run},
+                       {.id = "estimate.batch",
+                        .text = tr("Run on several…"),
+                        .tip = tr("Runs one or several methods on open light fields"),
+                        .keys = {tr("Shift+F5")},
+                        .run = [this] { ask_for_batch(bench_, runs_, method_->request()); },
+                        .enabled = has_scene},
+                       {.id = "estimate.sweep",
+                        .text = tr("Sweep parameters…"),
+                        .tip = tr("Runs the method with several values of one or two parameters"),
+                        .keys = {tr("Ctrl+Shift+F5")},
+                        .run = [this] { bench_.frame.showTab("sweep"); }}});
   QAction* cancel = bench_.commands.add({.id = "estimate.cancel",
                                          .menu = Menu::Estimate,
                                          .text = tr("Cancel"),
@@ -408,74 +395,52 @@ void EstimateController::addCommands() {
        .enabled = can_run});
   method_->followTips(cancel, copy);
   addResultCommands();
-  addNoteCommand();
-}
-
-void EstimateController::addNoteCommand() {
-  bench_.commands.add({.id = "estimate.note",
-                       .menu = Menu::Estimate,
-                       .text = tr("Note on result…"),
-                       .tip = tr("Writes a note on the shown result, kept with the project"),
-                       .keys = {tr("Ctrl+Alt+N")},
-                       .run = [this] { askForNote(*session_.shown()); },
-                       .section = kResultSection,
-                       .enabled = [this] { return session_.shown() != nullptr; }});
 }
 
 void EstimateController::addResultCommands() {
   const auto has_result = [this] { return session_.shown() != nullptr; };
-  bench_.commands.add({.id = "estimate.next",
-                       .menu = Menu::Estimate,
-                       .text = tr("Next result"),
-                       .tip = tr("Shows the next result of the list"),
-                       .keys = {tr("Ctrl+PgDown")},
-                       .run = [this] { showNeighbour(1); },
-                       .section = kResultSection,
-                       .enabled = has_result});
-  bench_.commands.add({.id = "estimate.previous",
-                       .menu = Menu::Estimate,
-                       .text = tr("Previous result"),
-                       .tip = tr("Shows the previous result of the list"),
-                       .keys = {tr("Ctrl+PgUp")},
-                       .run = [this] { showNeighbour(-1); },
-                       .section = kResultSection,
-                       .enabled = has_result});
-  bench_.commands.add({.id = "estimate.remove",
-                       .menu = Menu::Estimate,
-                       .text = tr("Remove result"),
-                       .tip = tr("Removes the shown result from the list"),
-                       .icon = "trash",
-                       .keys = {tr("Ctrl+Delete")},
-                       .run = [this] { removeShown(); },
-                       .section = kResultSection,
-                       .enabled = has_result});
-  bench_.commands.add({.id = "estimate.restore",
-                       .menu = Menu::Estimate,
-                       .text = tr("Restore removed result"),
-                       .tip = tr("Restores the result removed last"),
-                       .icon = "undo",
-                       .keys = {tr("Ctrl+Shift+Delete")},
-                       .run = [this] { restoreRemoved(); },
-                       .section = kResultSection,
-                       .enabled = [this] { return canRestore(); }});
-  bench_.commands.add({.id = "file.export",
-                       .menu = Menu::Export,
-                       .text = tr("Result…"),
-                       .tip = tr("Writes the shown result: HDF5, PFM, TIFF or PLY"),
-                       .icon = "export",
-                       .keys = {tr("Ctrl+E")},
-                       .run = [this] { ask_to_export(bench_, *session_.shown()); },
-                       .section = section::kResults,
-                       .bar = BarSection::Files,
-                       .enabled = has_result});
-  bench_.commands.add({.id = "file.export_submission",
-                       .menu = Menu::Export,
-                       .text = tr("Result for a submission…"),
-                       .tip = tr("Adds the shown result to a submission to the 2016 benchmark"),
-                       .icon = "export",
-                       .run = [this] { ask_to_submit(bench_, *session_.shown()); },
-                       .section = section::kResults,
-                       .enabled = has_result});
+  bench_.commands.add({.menu = Menu::Estimate, .section = kResultSection, .enabled = has_result},
+                      {{.id = "estimate.next",
+                        .text = tr("Next result"),
+                        .tip = tr("Shows the next result of the list"),
+                        .keys = {tr("Ctrl+PgDown")},
+                        .run = [this] { showNeighbour(1); }},
+                       {.id = "estimate.previous",
+                        .text = tr("Previous result"),
+                        .tip = tr("Shows the previous result of the list"),
+                        .keys = {tr("Ctrl+PgUp")},
+                        .run = [this] { showNeighbour(-1); }},
+                       {.id = "estimate.remove",
+                        .text = tr("Remove result"),
+                        .tip = tr("Removes the shown result from the list"),
+                        .icon = "trash",
+                        .keys = {tr("Ctrl+Delete")},
+                        .run = [this] { remove(session_.shown()->id); }},
+                       {.id = "estimate.restore",
+                        .text = tr("Restore removed result"),
+                        .tip = tr("Restores the result removed last"),
+                        .icon = "undo",
+                        .keys = {tr("Ctrl+Shift+Delete")},
+                        .run = [this] { restoreRemoved(); },
+                        .enabled = [this] { return canRestore(); }},
+                       {.id = "estimate.note",
+                        .text = tr("Note on result…"),
+                        .tip = tr("Writes a note on the shown result, kept with the project"),
+                        .keys = {tr("Ctrl+Alt+N")},
+                        .run = [this] { askForNote(*session_.shown()); }}});
+  bench_.commands.add({.menu = Menu::Export, .section = section::kResults},
+                      {{.id = "file.export",
+                        .text = tr("Result…"),
+                        .tip = tr("Writes the shown result: HDF5, PFM, TIFF or PLY"),
+                        .icon = "export",
+                        .keys = {tr("Ctrl+E")},
+                        .run = [this] { ask_to_export(bench_, *session_.shown()); },
+                        .bar = BarSection::Files},
+                       {.id = "file.export_submission",
+                        .text = tr("Result for a submission…"),
+                        .tip = tr("Adds the shown result to a submission to the 2016 benchmark"),
+                        .icon = "export",
+                        .run = [this] { ask_to_submit(bench_, *session_.shown()); }}});
 }
 
 namespace {

@@ -29,7 +29,6 @@ class EstimateController : public QObject {
   void run(const EstimateRequest& request);
   /// Cancels all runs on the shown light field, as JobCancel does.
   void cancel();
-  void removeShown();
   /// Restores the result removed last.
   void restoreRemoved();
   [[nodiscard]] bool canRestore() const;
@@ -52,7 +51,6 @@ class EstimateController : public QObject {
   void addTab();
   void addCommands();
   void addResultCommands();
-  void addNoteCommand();
   void connectResults();
   void update(Parts parts);
   void showChoice();
@@ -60,7 +58,6 @@ class EstimateController : public QObject {
   void listResults();
   [[nodiscard]] ResultRow rowOf(const EstimateEntry& entry) const;
   [[nodiscard]] quint64 rowId(const EstimateEntry& entry) const;
-  void copyCommandOf(const EstimateEntry& entry);
   void copy(const std::string& command);
   void reuse(const EstimateEntry& entry);
 

@@ -11,6 +11,7 @@
 #include "engine/core/error.h"
 #include "widgets/controls/message_bar.h"
 #include "widgets/controls/text.h"
+#include "widgets/controls/tool_button.h"
 
 #include <algorithm>
 
@@ -30,7 +31,6 @@ bool is_worth_keeping(const Project& project) {
          });
 }
 
-// The part of a project that is in files.
 Project written_part(Project project) {
   for (ProjectScene& scene : project.scenes) {
     std::erase_if(scene.results, [](const ProjectResult& each) { return !is_in_file(each); });
@@ -204,9 +204,8 @@ SessionRecovery::SessionRecovery(const Workbench& bench, Autosave& autosave)
     : QObject(&bench.owner),
       bench_(bench),
       autosave_(autosave),
-      bar_(new MessageBar(&bench.frame)),
+      bar_(named("sessionRecoveryBar", new MessageBar(&bench.frame))),
       job_(this) {
-  bar_->setObjectName("sessionRecoveryBar");
   bench.frame.addFloating(bar_);
   connect(&bench.frame, &Frame::started, this, &SessionRecovery::look);
   connect(bar_, &MessageBar::closed, this, &SessionRecovery::offerNext);

@@ -115,10 +115,8 @@ struct ReadProject {
   QStringList failures;                                ///< Sentences on strokes that are damaged.
 };
 
-/// Reads the strokes of a project.
 void read_strokes(ReadProject& read);
 
-/// Origin of a project.
 enum class ProjectOrigin {
   File,   ///< A project file, which replaces everything open.
   Crash,  ///< A crashed session, unsaved; scenes opened since then stay.

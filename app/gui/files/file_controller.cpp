@@ -36,16 +36,12 @@
 #include <QPushButton>
 #include <QSettings>
 #include <QUrl>
-#include <QVBoxLayout>
 
 #include <algorithm>
 #include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
-
-class QLabel;
-class QListWidget;
 
 namespace episcope {
 namespace {
@@ -98,27 +94,21 @@ std::vector<ParameterDescription> random_parameters() {
 
 BuiltinDialog::BuiltinDialog(QWidget* parent)
     : QDialog(parent),
-      scenes_(new QListWidget(this)),
+      scenes_(named("builtin.scenes", new QListWidget(this))),
       form_(new ParameterForm(this)),
-      written_(new QLabel(this)) {
+      written_(named("builtin.written", new QLabel(this))) {
   setObjectName("builtin");
   setWindowTitle(tr("Built-in scenes"));
-  scenes_->setObjectName("builtin.scenes");
   scenes_->setItemDelegate(new AsideDelegate(AsideDelegate::Place::Column, scenes_));
   listScenes();
   form_->setParameters(random_parameters());
-  written_->setObjectName("builtin.written");
   written_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   written_->setPalette(theme::text_palette(theme::muted_text(palette())));
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
   auto* open = buttons->addButton(tr("Open"), QDialogButtonBox::AcceptRole);
   open->setObjectName("builtin.open");
   open->setDefault(true);
-  auto* layout = new QVBoxLayout(this);
-  layout->addWidget(scenes_, 1);
-  layout->addWidget(form_);
-  layout->addWidget(written_);
-  layout->addWidget(buttons);
+  make_column(this, {{scenes_, 1}, form_, written_, buttons}, {.margins = kStyleMargins});
   connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
   connect(scenes_, &QListWidget::itemDoubleClicked, this, &QDialog::accept);
@@ -230,19 +220,16 @@ void FileController::addOpenCommands() {
           {tr("Ctrl+R")}, &FileController::askForResult);
   result.enabled = [this] { return bench_.session.scene() != nullptr; };
   bench_.commands.add(std::move(result));
-  bench_.commands.add({.id = "file.recent",
-                       .menu = Menu::Open,
-                       .text = tr("Recent"),
-                       .tip = tr("Reopens a recent light field"),
-                       .section = section::kOpen,
-                       .enabled = [this] { return !recent_menu_->isEmpty(); },
-                       .submenu = recent_menu_});
-  bench_.commands.add({.id = "file.demo",
-                       .menu = Menu::Open,
-                       .text = tr("Demo"),
-                       .tip = tr("Opens the built-in demo scene"),
-                       .run = [this] { bench_.opener.open("demo"); },
-                       .section = section::kOpen});
+  bench_.commands.add({.menu = Menu::Open, .section = section::kOpen},
+                      {{.id = "file.recent",
+                        .text = tr("Recent"),
+                        .tip = tr("Reopens a recent light field"),
+                        .enabled = [this] { return !recent_menu_->isEmpty(); },
+                        .submenu = recent_menu_},
+                       {.id = "file.demo",
+                        .text = tr("Demo"),
+                        .tip = tr("Opens the built-in demo scene"),
+                        .run = [this] { bench_.opener.open("demo"); }}});
   bench_.commands.add(add("file.builtin", tr("Built-in scenes…"),
                           tr("Opens one of the built-in scenes, or a random one of a seed"), {},
                           &FileController::askForBuiltin));
@@ -260,21 +247,18 @@ void FileController::addSaveCommand() {
 }
 
 void FileController::addLeaveCommands() {
-  bench_.commands.add({.id = "file.close",
-                       .menu = Menu::File,
-                       .text = tr("Close"),
-                       .tip = tr("Closes the light field"),
-                       .keys = {tr("Ctrl+W")},
-                       .run = [this] { bench_.opener.close(); },
-                       .section = section::kLeave,
-                       .enabled = [this] { return bench_.session.scene() != nullptr; }});
-  bench_.commands.add({.id = "file.quit",
-                       .menu = Menu::File,
-                       .text = tr("Quit"),
-                       .tip = tr("Quits Episcope"),
-                       .keys = {tr("Ctrl+Q")},
-                       .run = [this] { bench_.window.close(); },
-                       .section = section::kLeave});
+  bench_.commands.add({.menu = Menu::File, .section = section::kLeave},
+                      {{.id = "file.close",
+                        .text = tr("Close"),
+                        .tip = tr("Closes the light field"),
+                        .keys = {tr("Ctrl+W")},
+                        .run = [this] { bench_.opener.close(); },
+                        .enabled = [this] { return bench_.session.scene() != nullptr; }},
+                       {.id = "file.quit",
+                        .text = tr("Quit"),
+                        .tip = tr("Quits Episcope"),
+                        .keys = {tr("Ctrl+Q")},
+                        .run = [this] { bench_.window.close(); }}});
 }
 
 // Without a filter: too many forms can be opened for a list of suffixes.
@@ -282,7 +266,9 @@ void FileController::ask() {
   ask_for_file_or_folder(
       &bench_.window,
       {.name = "open_file", .title = tr("Open a light field, a result or a project")},
-      [this](const QString& path) { openAny(path); });
+      [this](const QString& path) {
+        is_result(path) ? openResult(path) : bench_.opener.open(path);
+      });
 }
 
 void FileController::readAgain() {
@@ -304,10 +290,6 @@ void FileController::askForBuiltin() {
   connect(dialog, &QDialog::accepted, this,
           [this, dialog] { bench_.opener.open(dialog->input()); });
   dialog->open();
-}
-
-void FileController::openAny(const QString& path) {
-  is_result(path) ? openResult(path) : bench_.opener.open(path);
 }
 
 void FileController::openResult(const QString& path, const QStringList& rest,

@@ -38,7 +38,6 @@ class FileController : public QObject {
   void readAgain();
   void askForResult();
   void askForBuiltin();
-  void openAny(const QString& path);
   /// Adds a result to the light field in front. If it belongs to another one, asks, and opens that
   /// without a question while nothing is open; then opens the `rest`.
   void openResult(const QString& path, const QStringList& rest = {},

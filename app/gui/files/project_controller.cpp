@@ -15,6 +15,7 @@
 #include "app/session/project_store.h"
 #include "app/session/session.h"
 #include "widgets/controls/message_bar.h"
+#include "widgets/controls/tool_button.h"
 
 #include <QAbstractButton>
 #include <QComboBox>
@@ -22,7 +23,6 @@
 #include <QPushButton>
 #include <QSignalBlocker>
 #include <QStringList>
-#include <QWidget>
 
 #include <algorithm>
 #include <map>
@@ -65,30 +65,27 @@ ProjectController::ProjectController(const Workbench& bench, Autosave& autosave)
 void ProjectController::addCommands() {
   const auto has_scene = [this] { return !bench_.session.scenes().empty(); };
   // Scribbles go to their own file, as other programs read it, until there is a project.
-  bench_.commands.add({.id = "file.save",
-                       .menu = Menu::Project,
-                       .text = tr("Save"),
-                       .tip = tr("Saves the project; without one, the scribbles"),
-                       .icon = "save",
-                       .keys = {QKeySequence::Save},
-                       .run =
-                           [this] {
-                             if (file().isEmpty()) {
-                               bench_.commands.trigger("file.save_scribbles");
-                             } else {
-                               save();
-                             }
-                           },
-                       .enabled = has_scene});
-  bench_.commands.add({.id = "file.save_project",
-                       .menu = Menu::Project,
-                       .text = tr("Save as…"),
-                       .tip = tr("Saves all open light fields with their results and scribbles "
-                                 "as a project"),
-                       .icon = "save",
-                       .keys = {tr("Ctrl+Alt+S")},
-                       .run = [this] { saveAs(); },
-                       .enabled = has_scene});
+  bench_.commands.add({.menu = Menu::Project, .enabled = has_scene},
+                      {{.id = "file.save",
+                        .text = tr("Save"),
+                        .tip = tr("Saves the project; without one, the scribbles"),
+                        .icon = "save",
+                        .keys = {QKeySequence::Save},
+                        .run =
+                            [this] {
+                              if (file().isEmpty()) {
+                                bench_.commands.trigger("file.save_scribbles");
+                              } else {
+                                save();
+                              }
+                            }},
+                       {.id = "file.save_project",
+                        .text = tr("Save as…"),
+                        .tip = tr("Saves all open light fields with their results and scribbles "
+                                  "as a project"),
+                        .icon = "save",
+                        .keys = {tr("Ctrl+Alt+S")},
+                        .run = [this] { saveAs(); }}});
 }
 
 QString ProjectController::file() const {
@@ -114,10 +111,6 @@ std::string ProjectController::content() const {
     text += '\n';
   }
   return text;
-}
-
-bool ProjectController::hasChanged() const {
-  return !file().isEmpty() && content() != saved_content_;
 }
 
 void ProjectController::open(const QString& path, const std::function<void()>& then) {
@@ -430,8 +423,9 @@ QString text_of(const OpenScene& scene) {
 }  // namespace
 
 SceneChooser::SceneChooser(const Workbench& bench)
-    : QObject(&bench.owner), bench_(bench), list_(new QComboBox(&bench.frame)) {
-  list_->setObjectName("scenes.open");
+    : QObject(&bench.owner),
+      bench_(bench),
+      list_(named("scenes.open", new QComboBox(&bench.frame))) {
   list_->setAccessibleName(tr("Open light fields"));
   list_->setToolTip(tr("Open light fields: choose the one to show"));
   list_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
@@ -451,22 +445,17 @@ SceneChooser::SceneChooser(const Workbench& bench)
 
 void SceneChooser::addCommands() {
   const auto has_several = [this] { return bench_.session.scenes().size() > 1; };
-  bench_.commands.add({.id = "scenes.next",
-                       .menu = Menu::View,
-                       .text = tr("Next open light field"),
-                       .tip = tr("Shows the next open light field"),
-                       .keys = {tr("Ctrl+Alt+PgDown")},
-                       .run = [this] { bench_.scenes.step(1); },
-                       .section = section::kTabs,
-                       .enabled = has_several});
-  bench_.commands.add({.id = "scenes.previous",
-                       .menu = Menu::View,
-                       .text = tr("Previous open light field"),
-                       .tip = tr("Shows the previous open light field"),
-                       .keys = {tr("Ctrl+Alt+PgUp")},
-                       .run = [this] { bench_.scenes.step(-1); },
-                       .section = section::kTabs,
-                       .enabled = has_several});
+  bench_.commands.add({.menu = Menu::View, .section = section::kTabs, .enabled = has_several},
+                      {{.id = "scenes.next",
+                        .text = tr("Next open light field"),
+                        .tip = tr("Shows the next open light field"),
+                        .keys = {tr("Ctrl+Alt+PgDown")},
+                        .run = [this] { bench_.scenes.step(1); }},
+                       {.id = "scenes.previous",
+                        .text = tr("Previous open light field"),
+                        .tip = tr("Shows the previous open light field"),
+                        .keys = {tr("Ctrl+Alt+PgUp")},
+                        .run = [this] { bench_.scenes.step(-1); }}});
   bench_.commands.addTargets([this] {
     std::vector<PaletteTarget> found;
     for (const OpenScene* scene : bench_.session.scenes()) {

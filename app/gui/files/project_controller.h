@@ -41,7 +41,7 @@ class ProjectController : public QObject {
   /// Empty if there is none yet.
   [[nodiscard]] QString file() const;
   /// Whether the project has a file that lacks the current scenes and results.
-  [[nodiscard]] bool hasChanged() const;
+  [[nodiscard]] bool hasChanged() const { return !file().isEmpty() && content() != saved_content_; }
 
  private:
   void addCommands();

@@ -33,10 +33,9 @@ bool is_demo(const std::string& input) {
 StartStrip::StartStrip(const Workbench& bench, QMenu* recent)
     : QWidget(&bench.frame), bench_(bench) {
   setObjectName("startStrip");
-  auto* row = new QHBoxLayout(this);
-  row->setContentsMargins(theme::kMargin + 4, 4, theme::kMargin, 4);
-  row->setSpacing(theme::kSpacing);
-  row->addWidget(new QLabel(tr("This is a demo."), this));
+  auto* row =
+      make_row(this, {new QLabel(tr("This is a demo."), this)},
+               {.margins = {theme::kMargin + 4, 4, theme::kMargin, 4}, .spacing = theme::kSpacing});
   addButtons(*row, recent);
   row->addWidget(makeSteps(), 1);
   auto* close = make_tool_button({"start.close", "close", tr("Do not show these hints")}, this);
@@ -55,8 +54,7 @@ StartStrip::StartStrip(const Workbench& bench, QMenu* recent)
 }
 
 QLabel* StartStrip::makeSteps() {
-  auto* steps = new QLabel(this);
-  steps->setObjectName("start.steps");
+  auto* steps = named("start.steps", new QLabel(this));
   steps->setWordWrap(true);
   steps->setTextFormat(Qt::RichText);
   steps->setText(
@@ -68,11 +66,9 @@ QLabel* StartStrip::makeSteps() {
 }
 
 void StartStrip::addButtons(QHBoxLayout& row, QMenu* recent) {
-  auto* open = new QPushButton(tr("Open…"), this);
-  open->setObjectName("start.open");
+  auto* open = named("start.open", new QPushButton(tr("Open…"), this));
   connect(open, &QPushButton::clicked, this, [this] { bench_.commands.trigger("file.open"); });
-  auto* again = new QPushButton(tr("Recent"), this);
-  again->setObjectName("start.recent");
+  auto* again = named("start.recent", new QPushButton(tr("Recent"), this));
   again->setMenu(recent);
   const QAction* listed = recent->menuAction();
   const auto follow = [again, listed] { again->setEnabled(listed->isEnabled()); };

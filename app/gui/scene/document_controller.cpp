@@ -24,10 +24,6 @@ DocumentController::~DocumentController() {
   for (auto& [scene, open] : aside_) finish(open);
 }
 
-void DocumentController::setJournalFolder(std::filesystem::path folder) {
-  journal_folder_ = std::move(folder);
-}
-
 AnnotationDocument* DocumentController::document() {
   return isCurrent() ? &now_.annotation->document() : nullptr;
 }
@@ -38,10 +34,6 @@ const AnnotationDocument* DocumentController::document() const {
 
 bool DocumentController::isCurrent() const {
   return now_.annotation && generation_ == session_.generation();
-}
-
-bool DocumentController::hasUnsavedChanges() const {
-  return isCurrent() && now_.has_unsaved_changes();
 }
 
 bool DocumentController::Open::has_unsaved_changes() const {
@@ -310,14 +302,6 @@ bool DocumentController::edit(const std::function<void(AnnotationDocument&)>& ch
   return true;
 }
 
-void DocumentController::undo() {
-  go(&AnnotationDocument::undo);
-}
-
-void DocumentController::redo() {
-  go(&AnnotationDocument::redo);
-}
-
 void DocumentController::go(DocumentChange (AnnotationDocument::*step)()) {
   endStroke();
   if (!isCurrent()) return;
@@ -438,10 +422,6 @@ void LabelChoice::chooseNext() {
   const auto& labels = document->labels().labels();
   const auto next = std::ranges::upper_bound(labels, current_, {}, &LabelInfo::id);
   choose(next == labels.end() ? labels.front().id : next->id);
-}
-
-void LabelChoice::swap() {
-  if (former_ != 0) choose(former_);
 }
 
 void LabelChoice::offerRegion(int label, std::function<void(int)> give) {

@@ -14,6 +14,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace episcope {
@@ -37,7 +38,7 @@ class DocumentController : public QObject {
   ~DocumentController() override;
 
   /// Folder of journals, initially the user's own; empty = no journals.
-  void setJournalFolder(std::filesystem::path folder);
+  void setJournalFolder(std::filesystem::path folder) { journal_folder_ = std::move(folder); }
   [[nodiscard]] const std::filesystem::path& journalFolder() const { return journal_folder_; }
 
   /// Null without a light field, or before its document exists.
@@ -46,7 +47,7 @@ class DocumentController : public QObject {
   /// Whether the document holds all scribbles of the light field's own files; if not, those must
   /// not be overwritten.
   [[nodiscard]] bool isWhole() const { return now_.is_whole; }
-  [[nodiscard]] bool hasUnsavedChanges() const;
+  [[nodiscard]] bool hasUnsavedChanges() const { return isCurrent() && now_.has_unsaved_changes(); }
   /// Whether the last changes are only in a project, not in the file of scribbles.
   [[nodiscard]] bool isInProjectOnly() const;
   /// File that it was last saved to; empty if none.
@@ -58,7 +59,6 @@ class DocumentController : public QObject {
   void noteSaved(std::uint64_t scene, std::uint64_t state, const std::string& file);
   /// Lets the current changes be dropped with the document.
   void discardChanges();
-  /// Discards the changes of all open scenes.
   void discardAll();
   /// Open scenes (OpenScene::id) whose documents have changes that no file holds.
   [[nodiscard]] std::vector<std::uint64_t> unsavedScenes() const;
@@ -72,8 +72,8 @@ class DocumentController : public QObject {
 
   /// Applies an edit; reports what it throws as a problem. Returns whether the document changed.
   bool edit(const std::function<void(AnnotationDocument&)>& change);
-  void undo();
-  void redo();
+  void undo() { go(&AnnotationDocument::undo); }
+  void redo() { go(&AnnotationDocument::redo); }
 
   /// Begins a stroke on one view, which lasts until it is ended or cancelled. False if it cannot
   /// begin.
@@ -165,7 +165,9 @@ class LabelChoice : public QObject {
   bool choose(int id);
   void chooseNext();
   /// Returns to the previous label.
-  void swap();
+  void swap() {
+    if (former_ != 0) choose(former_);
+  }
 
   /// Offers a region that can be given a label by `give(id)`, and the label that it has; an empty
   /// function takes the offer back.

@@ -15,6 +15,7 @@
 #include "widgets/controls/picture.h"
 #include "widgets/controls/text.h"
 #include "widgets/controls/theme.h"
+#include "widgets/controls/tool_button.h"
 
 #include <fmt/format.h>
 
@@ -33,8 +34,6 @@
 #include <algorithm>
 #include <utility>
 
-class QButtonGroup;
-
 namespace episcope {
 namespace {
 
@@ -45,7 +44,6 @@ class ReadingQuestion : public QDialog {
  public:
   ReadingQuestion(const io::Undecided& question, QWidget* parent);
 
-  /// The value of the option that was chosen.
   [[nodiscard]] std::string chosen() const;
 
  private:
@@ -77,8 +75,8 @@ ReadingQuestion::ReadingQuestion(const io::Undecided& question, QWidget* parent)
   layout->addWidget(file);
   layout->addWidget(paragraph(sentence(question.reason()), this));
   for (std::size_t i = 0; i < choices_.size(); ++i) {
-    auto* button = new QRadioButton(schema_text(choices_[i].label), this);
-    button->setObjectName("readingQuestion." + QString::fromStdString(choices_[i].value));
+    auto* button = named("readingQuestion." + QString::fromStdString(choices_[i].value),
+                         new QRadioButton(schema_text(choices_[i].label), this));
     buttons_->addButton(button, static_cast<int>(i));
     layout->addWidget(button);
   }

@@ -234,14 +234,6 @@ bool is_result(const QString& path) {
 ResultOpener::ResultOpener(Session& session, Jobs& jobs, Messages& messages, QObject* parent)
     : QObject(parent), session_(session), jobs_(jobs), messages_(messages) {}
 
-void ResultOpener::open(const QString& path) {
-  openAs({.path = path});
-}
-
-void ResultOpener::openForeign(const QString& path) {
-  openAs({.path = path, .is_foreign = true});
-}
-
 void ResultOpener::openAs(const Request& request) {
   const QString name = QFileInfo(request.path).fileName();
   jobs_.start<ReadEstimate>(

@@ -87,10 +87,10 @@ class ResultOpener : public QObject {
   ResultOpener(Session& session, Jobs& jobs, Messages& messages, QObject* parent);
 
   /// Precondition: a light field is open.
-  void open(const QString& path);
+  void open(const QString& path) { openAs({.path = path}); }
   /// Adds a result that is known to belong to another light field, and marks it. Precondition: a
   /// light field is open.
-  void openForeign(const QString& path);
+  void openForeign(const QString& path) { openAs({.path = path, .is_foreign = true}); }
   /// Files that results were read from or written to.
   [[nodiscard]] KnownFiles& files() { return files_; }
 

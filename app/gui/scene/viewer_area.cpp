@@ -7,6 +7,7 @@
 #include "widgets/canvas/tile_wall.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/controls/theme.h"
+#include "widgets/controls/tool_button.h"
 #include "widgets/panels/color_bar.h"
 #include "widgets/panels/overlay_bar.h"
 
@@ -14,7 +15,6 @@
 #include <QEvent>
 #include <QSplitter>
 #include <QStackedLayout>
-#include <QVBoxLayout>
 
 #include <algorithm>
 #include <functional>
@@ -59,9 +59,7 @@ void align(QSplitter& lower, const QSplitter& upper, const QWidget& vertical_epi
 /// Holds the place of a pane, also while that is elsewhere.
 QWidget* make_place(QWidget* pane) {
   auto* place = new QWidget;
-  auto* layout = new QVBoxLayout(place);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->addWidget(pane);
+  make_column(place, {pane});
   return place;
 }
 
@@ -71,11 +69,8 @@ QWidget* make_legend(ColorBar* color_bar, QWidget* parent) {
   policy.setRetainSizeWhenHidden(true);
   color_bar->setSizePolicy(policy);
   auto* legend = new QWidget(parent);
-  auto* layout = new QVBoxLayout(legend);
-  layout->setContentsMargins(theme::kSpacing, 0, theme::kSpacing, 0);
-  layout->addStretch(1);
-  layout->addWidget(color_bar);
-  layout->addStretch(1);
+  make_column(legend, {kRoom, color_bar, kRoom},
+              {.margins = {theme::kSpacing, 0, theme::kSpacing, 0}});
   return legend;
 }
 
@@ -89,10 +84,11 @@ ViewerArea::ViewerArea(QWidget* parent)
       vertical_epi_(new EpiPane(Qt::Vertical, this)),
       color_bar_(new ColorBar(this)),
       overlay_bar_(new OverlayBar(this)),
-      rows_(new QSplitter(Qt::Vertical, this)),
-      upper_(new QSplitter(Qt::Horizontal)),
+      rows_(named("split.rows", new QSplitter(Qt::Vertical, this))),
+      upper_(named("split.upper", new QSplitter(Qt::Horizontal))),
       // At once, so that no frame shows them out of line: the upper row has its size by then.
-      lower_(new ToldSplitter([this] { align(*lower_, *upper_, *vertical_place_); })),
+      lower_(named("split.lower",
+                   new ToldSplitter([this] { align(*lower_, *upper_, *vertical_place_); }))),
       vertical_place_(make_place(vertical_epi_)),
       horizontal_place_(make_place(horizontal_epi_)),
       legend_(make_legend(color_bar_, this)) {
@@ -112,9 +108,6 @@ void ViewerArea::arrange() {
   rows_->addWidget(upper_);
   rows_->addWidget(lower_);
   rows_->setSizes({kCanvasHeight, kEpiHeight});
-  rows_->setObjectName("split.rows");
-  upper_->setObjectName("split.upper");
-  lower_->setObjectName("split.lower");
   for (QSplitter* splitter : {rows_, upper_, lower_}) {
     splitter->setChildrenCollapsible(false);
     splitter->setHandleWidth(4);
@@ -123,9 +116,7 @@ void ViewerArea::arrange() {
     if (splitter != rows_) splitter->setSizes({kCanvasWidth, kEpiWidth});
     set_divided_by_itself(*splitter, true);
   }
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->addWidget(rows_);
+  make_column(this, {rows_});
 }
 
 void ViewerArea::fitEpis() {
@@ -218,10 +209,6 @@ void ViewerArea::setWallShown(bool is_shown) {
   if (!guest_) showInCenter(is_shown ? static_cast<QWidget*>(wall_) : canvas_);
 }
 
-bool ViewerArea::isWallShown() const {
-  return is_wall_shown_;
-}
-
 void ViewerArea::setGuest(QWidget* guest) {
   center_->addWidget(guest);
   guest_ = guest;
@@ -266,10 +253,6 @@ void ViewerArea::showPreviewEpis(const QImage& horizontal, const QImage& vertica
   if (!is_previewing_) return;
   horizontal_epi_->setEpi(horizontal);
   vertical_epi_->setEpi(vertical);
-}
-
-void ViewerArea::endPreview() {
-  if (std::exchange(is_previewing_, false)) emit previewChanged(false);
 }
 
 QString open_a_light_field() {

@@ -6,6 +6,8 @@
 #include <QRect>
 #include <QWidget>
 
+#include <utility>
+
 class QSplitter;
 class QStackedLayout;
 
@@ -39,7 +41,7 @@ class ViewerArea : public QWidget {
 
   /// Shows the wall instead of the canvas, and moves the keyboard focus along.
   void setWallShown(bool is_shown);
-  [[nodiscard]] bool isWallShown() const;
+  [[nodiscard]] bool isWallShown() const { return is_wall_shown_; }
   /// Shows a foreign widget in place of canvas or wall until `releaseGuest`, or until its owner
   /// reparents it. Moves the keyboard focus along.
   void setGuest(QWidget* guest);
@@ -66,7 +68,9 @@ class ViewerArea : public QWidget {
   /// Shows EPIs beside the preview; ignored without one.
   void showPreviewEpis(const QImage& horizontal, const QImage& vertical);
   /// Returns to the session; listeners of `previewChanged` redraw it.
-  void endPreview();
+  void endPreview() {
+    if (std::exchange(is_previewing_, false)) emit previewChanged(false);
+  }
   [[nodiscard]] bool isPreviewing() const { return is_previewing_; }
 
  signals:

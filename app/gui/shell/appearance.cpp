@@ -4,6 +4,7 @@
 #include "app/gui/shell/commands.h"
 #include "app/gui/shell/frame.h"
 #include "widgets/controls/theme.h"
+#include "widgets/controls/tool_button.h"
 
 #include <QAction>
 #include <QApplication>
@@ -104,8 +105,7 @@ struct LanguageText {
 };
 
 void add_translator(const QString& file, const QString& folder) {
-  auto* translator = new QTranslator(QCoreApplication::instance());
-  translator->setObjectName(kTranslator);
+  auto* translator = named(kTranslator, new QTranslator(QCoreApplication::instance()));
   if (translator->load(file, folder)) {
     QCoreApplication::installTranslator(translator);
   } else {

@@ -6,8 +6,6 @@
 
 #include <QAction>
 #include <QCoreApplication>
-#include <QHBoxLayout>
-#include <QHeaderView>
 #include <QKeyEvent>
 #include <QKeySequenceEdit>
 #include <QLabel>
@@ -18,7 +16,6 @@
 #include <QTimer>
 #include <QTreeWidget>
 #include <QTreeWidgetItemIterator>
-#include <QVBoxLayout>
 
 #include <algorithm>
 
@@ -92,21 +89,17 @@ QString synonyms_of(const QString& id) {
 CommandPalette::CommandPalette(const Commands& commands, QWidget* parent)
     : QDialog(parent, Qt::Popup),
       commands_(commands),
-      edit_(new QLineEdit(this)),
-      list_(new QListWidget(this)) {
+      edit_(named("command_palette.edit", new QLineEdit(this))),
+      list_(named("command_palette.list", new QListWidget(this))) {
   setObjectName("command_palette");
-  edit_->setObjectName("command_palette.edit");
   edit_->setAccessibleName(tr("Words of a command, method or light field"));
   edit_->setPlaceholderText(tr("Type words of a command, method or light field"));
   edit_->installEventFilter(this);
-  list_->setObjectName("command_palette.list");
   list_->setAccessibleName(tr("What was found"));
   list_->setFocusPolicy(Qt::NoFocus);
   list_->setTextElideMode(Qt::ElideMiddle);
   list_->setItemDelegate(new AsideDelegate(AsideDelegate::Place::End, list_));
-  auto* layout = new QVBoxLayout(this);
-  layout->addWidget(edit_);
-  layout->addWidget(list_);
+  make_column(this, {edit_, list_}, {.margins = kStyleMargins});
   connect(edit_, &QLineEdit::textChanged, this, &CommandPalette::filter);
   connect(edit_, &QLineEdit::returnPressed, this, &CommandPalette::runCurrent);
   connect(list_, &QListWidget::itemClicked, this, &CommandPalette::runCurrent);
@@ -222,21 +215,16 @@ QTreeWidgetItem* add_group(QTreeWidget* tree, const QString& title) {
 ShortcutWindow::ShortcutWindow(Commands& commands, QWidget* parent)
     : QDialog(parent),
       commands_(commands),
-      find_(new QLineEdit(this)),
-      tree_(new QTreeWidget(this)) {
+      find_(named("keys.find", new QLineEdit(this))),
+      tree_(named("keys.tree", new QTreeWidget(this))) {
   setObjectName("shortcut_window");
   setWindowTitle(tr("Keys and mouse"));
-  tree_->setObjectName("keys.tree");
   tree_->setHeaderLabels({tr("Key"), tr("What it does")});
   tree_->setRootIsDecorated(false);
   tree_->setItemsExpandable(false);
-  find_->setObjectName("keys.find");
   find_->setPlaceholderText(tr("Find a key or a command"));
   find_->setClearButtonEnabled(true);
-  auto* layout = new QVBoxLayout(this);
-  layout->addWidget(find_);
-  layout->addWidget(tree_, 1);
-  layout->addWidget(makeEditor());
+  make_column(this, {find_, {tree_, 1}, makeEditor()}, {.margins = kStyleMargins});
   fillGestures();
   fillCommands();
   showKeys();
@@ -259,27 +247,18 @@ ShortcutWindow::ShortcutWindow(Commands& commands, QWidget* parent)
 
 QWidget* ShortcutWindow::makeEditor() {
   auto* editor = new QWidget(this);
-  edit_ = new QKeySequenceEdit(editor);
-  edit_->setObjectName("keys.edit");
-  set_ = new QPushButton(tr("Set key"), editor);
-  set_->setObjectName("keys.set");
-  reset_ = new QPushButton(tr("Default"), editor);
-  reset_->setObjectName("keys.reset");
+  edit_ = named("keys.edit", new QKeySequenceEdit(editor));
+  set_ = named("keys.set", new QPushButton(tr("Set key"), editor));
+  reset_ = named("keys.reset", new QPushButton(tr("Default"), editor));
   reset_->setToolTip(tr("Restores the default keys of the selected command"));
-  auto* reset_all = new QPushButton(tr("All defaults"), editor);
-  reset_all->setObjectName("keys.resetAll");
+  auto* reset_all = named("keys.resetAll", new QPushButton(tr("All defaults"), editor));
   reset_all->setToolTip(tr("Restores the default keys of all commands"));
   for (auto* button : {set_, reset_, reset_all}) button->setAutoDefault(false);
-  hint_ = new QLabel(editor);
-  hint_->setObjectName("keys.hint");
+  hint_ = named("keys.hint", new QLabel(editor));
   hint_->setWordWrap(true);
-  auto* row = new QHBoxLayout;
-  row->addWidget(edit_, 1);
+  auto* row = make_row({{edit_, 1}});
   for (auto* button : {set_, reset_, reset_all}) row->addWidget(button);
-  auto* layout = new QVBoxLayout(editor);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->addWidget(hint_);
-  layout->addLayout(row);
+  make_column(editor, {hint_, row});
   connect(edit_, &QKeySequenceEdit::keySequenceChanged, this, [this](const QKeySequence& keys) {
     // One chord; the edit would gather up to four.
     if (keys.count() > 1) edit_->setKeySequence(QKeySequence(keys[0]));

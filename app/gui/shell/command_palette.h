@@ -4,7 +4,6 @@
 #include "app/gui/shell/commands.h"
 
 #include <QDialog>
-#include <QKeySequence>
 #include <QString>
 
 #include <vector>

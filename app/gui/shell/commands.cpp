@@ -82,6 +82,15 @@ QAction* Commands::add(Command command) {
   return action;
 }
 
+void Commands::add(const Command& common, std::vector<Command> commands) {
+  for (Command& each : commands) {
+    each.menu = common.menu;
+    each.section = common.section;
+    if (!each.enabled) each.enabled = common.enabled;
+    add(std::move(each));
+  }
+}
+
 void Commands::apply(const Command& command, const QList<QKeySequence>& keys) {
   keys_[command.id] = keys;
   QAction* action = find(command.id);
@@ -89,10 +98,6 @@ void Commands::apply(const Command& command, const QList<QKeySequence>& keys) {
   action->setToolTip(keys.isEmpty()
                          ? command.tip
                          : QStringLiteral("%1 (%2)").arg(command.tip, keyText(command.id)));
-}
-
-void Commands::refresh() {
-  for (const Command& each : commands_) show(each);
 }
 
 void Commands::show(const Command& command) {

@@ -44,7 +44,6 @@ enum class Menu {
   Help
 };
 
-/// One row of the table of menus.
 struct MenuInfo {
   Menu menu;
   const char* text;  ///< Untranslated.
@@ -58,6 +57,7 @@ struct MenuInfo {
 
 /// "View", or "View › Colors" for a submenu, translated.
 [[nodiscard]] QString menu_path(Menu menu);
+
 /// "Colors", translated.
 [[nodiscard]] QString menu_text(Menu menu);
 
@@ -103,10 +103,10 @@ enum class KeyScope {
 /// One command: its texts and keys in menus, tool bars, tool tips, key list and palette; its
 /// action; and its conditions.
 struct Command {
-  QString id;  ///< "view.left"
+  QString id{};  ///< "view.left"
   Menu menu = Menu::File;
-  QString text;                ///< As in the menu, without mnemonic.
-  QString tip;                 ///< A sentence: what it does.
+  QString text{};              ///< As in the menu, without mnemonic.
+  QString tip{};               ///< A sentence: what it does.
   QString icon{};              ///< Name in resources/icons; may be empty.
   QList<QKeySequence> keys{};  ///< Until the user gives it others.
   std::function<void()> run{};
@@ -142,6 +142,8 @@ class Commands : public QObject {
   /// Creates the action with text, tool tip, icon, keys (the user's, if changed) and handler. Its
   /// object name is the id.
   QAction* add(Command command);
+  /// Adds commands with the menu and section of `common`, and its condition if they have none.
+  void add(const Command& common, std::vector<Command> commands);
   /// Null for an unknown id.
   [[nodiscard]] QAction* find(const QString& id) const;
   [[nodiscard]] const std::vector<Command>& all() const { return commands_; }
@@ -179,7 +181,9 @@ class Commands : public QObject {
 
  public slots:
   /// Updates enabled, checked, visible and text of all commands.
-  void refresh();
+  void refresh() {
+    for (const Command& each : commands_) show(each);
+  }
 
  signals:
   void keysChanged();

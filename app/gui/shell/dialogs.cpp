@@ -8,6 +8,7 @@
 #include "app/session/session.h"
 #include "engine/core/error.h"
 #include "widgets/controls/text.h"
+#include "widgets/controls/tool_button.h"
 
 #include <QCoreApplication>
 #include <QDateTime>
@@ -219,9 +220,9 @@ struct QuestionBoxText {
 }  // namespace
 
 QMessageBox* new_question_box(QWidget* window, const BoxQuestion& question) {
-  auto* box = new QMessageBox(question.icon, question.title, breakable(question.text),
-                              question.buttons, window);
-  box->setObjectName(question.name);
+  auto* box =
+      named(question.name, new QMessageBox(question.icon, question.title, breakable(question.text),
+                                           question.buttons, window));
   box->setTextFormat(Qt::PlainText);
   box->setAttribute(Qt::WA_DeleteOnClose);
   return box;

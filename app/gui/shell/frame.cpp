@@ -3,8 +3,8 @@
 
 #include "app/gui/shell/panes.h"
 #include "widgets/canvas/canvas_geometry.h"
-#include "widgets/controls/message_bar.h"
 #include "widgets/controls/theme.h"
+#include "widgets/controls/tool_button.h"
 
 #include <QEvent>
 #include <QMenu>
@@ -12,7 +12,6 @@
 #include <QTabBar>
 #include <QTabWidget>
 #include <QToolButton>
-#include <QVBoxLayout>
 #include <QtMath>
 
 #include <algorithm>
@@ -30,8 +29,7 @@ QString pane_id(const QString& tab) {
 
 // Lists all tabs, also those that are scrolled away or hidden.
 QToolButton* make_list_of_tabs(Frame& frame, QWidget* parent) {
-  auto* button = new QToolButton(parent);
-  button->setObjectName("tabs.list");
+  auto* button = named("tabs.list", new QToolButton(parent));
   button->setAccessibleName(Frame::tr("All tabs"));
   button->setToolTip(Frame::tr("All tabs"));
   button->setArrowType(Qt::DownArrow);
@@ -63,8 +61,7 @@ void set_up(QTabWidget& book) {
 
 // The tabs, and below them the stacked panes.
 QSplitter* make_books(QTabWidget* tabs, TabStack* stack, QWidget* parent) {
-  auto* split = new QSplitter(Qt::Vertical, parent);
-  split->setObjectName("split.side");
+  auto* split = named("split.side", new QSplitter(Qt::Vertical, parent));
   split->setChildrenCollapsible(false);
   for (QTabWidget* book : {tabs, static_cast<QTabWidget*>(stack)}) {
     split->addWidget(book);
@@ -77,24 +74,18 @@ QSplitter* make_books(QTabWidget* tabs, TabStack* stack, QWidget* parent) {
 
 Frame::Frame(QWidget* parent)
     : QWidget(parent),
-      viewer_(new QWidget(this)),
-      column_(new QSplitter(Qt::Vertical, viewer_)),
-      browser_(new QSplitter(Qt::Horizontal, viewer_)),
+      viewer_(named("viewer", new QWidget(this))),
+      column_(named("split.column", new QSplitter(Qt::Vertical, viewer_))),
+      browser_(named("split.browser", new QSplitter(Qt::Horizontal, viewer_))),
       floating_(new Floating(*viewer_)),
       panes_(new Panes(*this)) {
-  viewer_->setObjectName("viewer");
-  column_->setObjectName("split.column");
   column_->setChildrenCollapsible(false);
-  browser_->setObjectName("split.browser");
   browser_->addWidget(column_);
   browser_->setStretchFactor(0, 0);
-  auto* viewer_layout = new QVBoxLayout(viewer_);
-  viewer_layout->setContentsMargins(0, 0, 0, 0);
-  viewer_layout->addWidget(browser_);
+  make_column(viewer_, {browser_});
 
   side_ = new QWidget(this);
-  book_ = new QTabWidget(side_);
-  book_->setObjectName("tabs");
+  book_ = named("tabs", new QTabWidget(side_));
   set_up(*book_);
   book_->setCornerWidget(make_list_of_tabs(*this, book_), Qt::TopRightCorner);
   auto* stack = new TabStack(side_);
@@ -103,8 +94,7 @@ Frame::Frame(QWidget* parent)
   right_->setContentsMargins(theme::kSpacing / 2, 0, theme::kSpacing / 2, 0);
   right_->addWidget(make_books(book_, stack, side_), 1);
 
-  auto* split = new QSplitter(Qt::Horizontal, this);
-  split->setObjectName("split.tabs");
+  auto* split = named("split.tabs", new QSplitter(Qt::Horizontal, this));
   split->addWidget(viewer_);
   split->addWidget(side_);
   split->setStretchFactor(0, 1);
@@ -180,8 +170,7 @@ void Frame::keepAside(QWidget* pane) {
 }
 
 QTabWidget* Frame::makePages(const Tab& task) {
-  auto* pages = new QTabWidget(side_);
-  pages->setObjectName("pages." + task.id);
+  auto* pages = named("pages." + task.id, new QTabWidget(side_));
   set_up(*pages);
   pages->setTabBarAutoHide(true);
   pages->addTab(task.widget, task.page);
@@ -233,18 +222,10 @@ void Frame::addToTab(const QString& id, QWidget* widget) {
   if (tab && tab->room) tab->room->addWidget(widget);
 }
 
-void Frame::addUnderTabs(QWidget* widget) {
-  right_->addWidget(widget);
-}
-
 void Frame::addLine(Line line, QWidget* widget) {
   lines_[line] = widget;
   const auto after = std::distance(lines_.find(line), lines_.end()) - 1;
   rows_->insertWidget(rows_->count() - static_cast<int>(after), widget);
-}
-
-void Frame::addAbove(QWidget* widget) {
-  rows_->insertWidget(0, widget);
 }
 
 void Frame::addFloating(QWidget* widget) {
@@ -254,10 +235,6 @@ void Frame::addFloating(QWidget* widget) {
 void Frame::setPanelsShown(bool are_shown) {
   column_->setVisible(are_shown);
   side_->setVisible(are_shown);
-}
-
-bool Frame::arePanelsShown() const {
-  return !side_->isHidden();
 }
 
 // Brings a detached or stacked pane to the front; false if it is at its place.
@@ -357,14 +334,6 @@ Messages::Messages(Frame& frame) : bar_(new MessageBar(&frame)) {
   frame.addFloating(bar_);
 }
 
-void Messages::hint(const QString& sentence) {
-  bar_->showMessage(Severity::Info, sentence);
-}
-
-void Messages::success(const QString& sentence) {
-  bar_->showMessage(Severity::Success, sentence);
-}
-
 void Messages::warn(const QString& sentence) {
   bar_->showMessage(Severity::Warning, sentence);
 }
@@ -373,28 +342,12 @@ void Messages::warn(const QString& sentence, const QString& button, std::functio
   bar_->showMessage(Severity::Warning, sentence, {button, std::move(run)});
 }
 
-void Messages::fail(const QString& sentence) {
-  bar_->showMessage(Severity::Error, sentence);
-}
-
-void Messages::written(const QString& path) {
-  success(tr("Saved: %1").arg(path));
-}
-
 void Messages::offer(const QString& sentence, const QString& button, std::function<void()> run) {
   bar_->showMessage(Severity::Info, sentence, {button, std::move(run)});
 }
 
-void Messages::dismiss() {
-  bar_->dismiss();
-}
-
 bool Messages::isShown(const QString& sentence) const {
   return !bar_->isHidden() && bar_->text() == sentence;
-}
-
-void Messages::retract(const QString& sentence) {
-  if (isShown(sentence)) bar_->dismiss();
 }
 
 }  // namespace episcope

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "widgets/controls/message_bar.h"
+
 #include <QKeySequence>
 #include <QObject>
 #include <QPointer>
 #include <QString>
+#include <QVBoxLayout>
 #include <QWidget>
 
 #include <functional>
@@ -15,12 +18,10 @@
 class QBoxLayout;
 class QSplitter;
 class QTabWidget;
-class QVBoxLayout;
 
 namespace episcope {
 
 class Floating;
-class MessageBar;
 class Panes;
 
 /// A tab on the right, or a page of one: each task has a tab, and what belongs to a task is a page.
@@ -61,16 +62,16 @@ class Frame : public QWidget {
   /// Adds a widget to the room of a tab; ignored if the tab has none.
   void addToTab(const QString& id, QWidget* widget);
   /// Adds a widget below the tabs.
-  void addUnderTabs(QWidget* widget);
+  void addUnderTabs(QWidget* widget) { right_->addWidget(widget); }
   void addLine(Line line, QWidget* widget);
   /// Adds a widget above everything else.
-  void addAbove(QWidget* widget);
+  void addAbove(QWidget* widget) { rows_->insertWidget(0, widget); }
   /// Adds a widget that floats over the viewer area, so that nothing moves when it appears.
   void addFloating(QWidget* widget);
 
   /// Shows or hides the left column and the tabs; the viewer area takes their room.
   void setPanelsShown(bool are_shown);
-  [[nodiscard]] bool arePanelsShown() const;
+  [[nodiscard]] bool arePanelsShown() const { return !side_->isHidden(); }
 
   [[nodiscard]] const std::vector<Tab>& tabs() const { return tabs_; }
   void showTab(const QString& id);
@@ -160,20 +161,22 @@ class Messages : public QObject {
   explicit Messages(Frame& frame);
 
   /// Tells what to do first; no failure.
-  void hint(const QString& sentence);
-  void success(const QString& sentence);
+  void hint(const QString& sentence) { bar_->showMessage(Severity::Info, sentence); }
+  void success(const QString& sentence) { bar_->showMessage(Severity::Success, sentence); }
   void warn(const QString& sentence);
   /// The same with a button that remedies it.
   void warn(const QString& sentence, const QString& button, std::function<void()> run);
-  void fail(const QString& sentence);
+  void fail(const QString& sentence) { bar_->showMessage(Severity::Error, sentence); }
   /// Shows "Saved: …".
-  void written(const QString& path);
+  void written(const QString& path) { success(tr("Saved: %1").arg(path)); }
   /// Reports an action, with a button that reacts to it.
   void offer(const QString& sentence, const QString& button, std::function<void()> run);
-  void dismiss();
+  void dismiss() { bar_->dismiss(); }
   [[nodiscard]] bool isShown(const QString& sentence) const;
   /// Removes a sentence that no longer holds, if it is still shown.
-  void retract(const QString& sentence);
+  void retract(const QString& sentence) {
+    if (isShown(sentence)) bar_->dismiss();
+  }
 
  private:
   MessageBar* bar_;

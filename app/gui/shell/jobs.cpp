@@ -33,18 +33,10 @@ quint64 Jobs::adopt(const QString& title, std::function<void()> cancel) {
   return id;
 }
 
-void Jobs::release(quint64 id) {
-  if (jobs_.erase(id) > 0) emit removed(id);
-}
-
 quint64 Jobs::add(const QString& title, std::optional<Lane> lane) {
   jobs_[++last_id_] = {.lane = lane, .title = title};
   emit added(last_id_, title);
   return last_id_;
-}
-
-void Jobs::attach(quint64 id, JobId runner_id) {
-  jobs_[id].runner_id = runner_id;
 }
 
 void Jobs::report(quint64 id, const ProgressState& state) {
@@ -119,10 +111,6 @@ std::vector<Jobs::Running> Jobs::running(Lane lane) const {
     if (job.lane == lane) all.push_back(*find(id));
   }
   return all;
-}
-
-int Jobs::count(Lane lane) const {
-  return static_cast<int>(running(lane).size());
 }
 
 LatestJob::LatestJob(QObject* context) : runner_(queued_post(context)) {}

@@ -70,7 +70,9 @@ class Jobs : public QObject {
   quint64 adopt(const QString& title, std::function<void()> cancel);
   void tell(quint64 id, const ProgressState& state) { report(id, state); }
   /// Ignored for an unknown id.
-  void release(quint64 id);
+  void release(quint64 id) {
+    if (jobs_.erase(id) > 0) emit removed(id);
+  }
 
   /// A waiting or running job.
   struct Running {
@@ -97,7 +99,7 @@ class Jobs : public QObject {
   /// All of a lane, the oldest first.
   [[nodiscard]] std::vector<Running> running(Lane lane) const;
   [[nodiscard]] int count() const { return static_cast<int>(jobs_.size()); }
-  [[nodiscard]] int count(Lane lane) const;
+  [[nodiscard]] int count(Lane lane) const { return static_cast<int>(running(lane).size()); }
 
  signals:
   void added(quint64 id, const QString& title);
@@ -123,7 +125,7 @@ class Jobs : public QObject {
   };
   [[nodiscard]] JobRunner& runner(Lane lane) { return *runners_[static_cast<std::size_t>(lane)]; }
   quint64 add(const QString& title, std::optional<Lane> lane);
-  void attach(quint64 id, JobId runner_id);
+  void attach(quint64 id, JobId runner_id) { jobs_[id].runner_id = runner_id; }
   void report(quint64 id, const ProgressState& state);
   void tellProgress();
   void finish(quint64 id, const std::exception_ptr& failure);

@@ -2,6 +2,7 @@
 #include "app/gui/shell/manual_window.h"
 
 #include "widgets/controls/theme.h"
+#include "widgets/controls/tool_button.h"
 
 #include <QCoreApplication>
 #include <QDir>
@@ -17,7 +18,6 @@
 #include <QTextBrowser>
 #include <QTextDocument>
 #include <QUrl>
-#include <QVBoxLayout>
 
 #include <algorithm>
 
@@ -102,30 +102,25 @@ QString manual_folder() {
 }
 
 ManualWindow::ManualWindow(QWidget* parent)
-    : QDialog(parent), pages_(new Pages(this)), words_(new QLineEdit(this)) {
+    : QDialog(parent),
+      pages_(named("manual.pages", new Pages(this))),
+      words_(named("manual.search", new QLineEdit(this))) {
   setObjectName("manual");
-  pages_->setObjectName("manual.pages");
   pages_->setAccessibleName(tr("Page of the manual"));
   pages_->setOpenExternalLinks(true);
-  auto* contents = new QPushButton(tr("Contents"), this);
-  contents->setObjectName("manual.contents");
-  auto* back = new QPushButton(tr("Back"), this);
-  back->setObjectName("manual.back");
+  auto* contents = named("manual.contents", new QPushButton(tr("Contents"), this));
+  auto* back = named("manual.back", new QPushButton(tr("Back"), this));
   back->setEnabled(false);
   auto* row = new QHBoxLayout;
   for (auto* button : {contents, back}) {
     button->setAutoDefault(false);
     row->addWidget(button);
   }
-  words_->setObjectName("manual.search");
   words_->setPlaceholderText(tr("Search the manual"));
   words_->setAccessibleName(words_->placeholderText());
   words_->setClearButtonEnabled(true);
   row->addWidget(words_, 1);
-  auto* layout = new QVBoxLayout(this);
-  layout->setSpacing(theme::kSpacing);
-  layout->addLayout(row);
-  layout->addWidget(pages_, 1);
+  make_column(this, {row, {pages_, 1}}, {.margins = kStyleMargins, .spacing = theme::kSpacing});
   connect(contents, &QPushButton::clicked, this, [this] { open(kContents); });
   connect(back, &QPushButton::clicked, pages_, &QTextBrowser::backward);
   connect(pages_, &QTextBrowser::backwardAvailable, back, &QPushButton::setEnabled);
@@ -162,7 +157,6 @@ void ManualWindow::search() {
   pages_->setSource(hits, QTextDocument::MarkdownResource);
 }
 
-// The first heading of the page.
 void ManualWindow::showTitle() {
   const QString heading = pages_->document()->firstBlock().text();
   setWindowTitle(heading.isEmpty() ? tr("Manual") : tr("%1 — Manual").arg(heading));

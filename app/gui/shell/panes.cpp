@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/shell/panes.h"
 
+#include "widgets/controls/tool_button.h"
+
 #include <QAbstractButton>
 #include <QAbstractItemView>
 #include <QAbstractSlider>
@@ -19,7 +21,6 @@
 #include <QStackedWidget>
 #include <QTabBar>
 #include <QTextEdit>
-#include <QVBoxLayout>
 
 #include <algorithm>
 #include <utility>
@@ -46,6 +47,13 @@ bool is_in_front(const QWidget& widget) {
   return true;
 }
 
+// Main window of a widget, also for a widget in a detached pane.
+const QWidget* main_window_of(const QWidget& widget) {
+  const QWidget* window = widget.window();
+  const auto* pane = qobject_cast<const PaneWindow*>(window);
+  return pane && pane->parentWidget() ? pane->parentWidget()->window() : window;
+}
+
 }  // namespace
 
 Panes::Panes(QWidget& home) : QObject(&home), home_(home) {}
@@ -55,10 +63,6 @@ Panes::~Panes() = default;
 void Panes::setStack(TabStack* stack) {
   stack_ = stack;
   stack->serve(*this);
-}
-
-void Panes::add(Pane pane) {
-  panes_.push_back(std::move(pane));
 }
 
 const Pane* Panes::find(const QString& id) const {
@@ -77,8 +81,7 @@ void Panes::tear(const QString& id) {
   const QSize size = pane->widget->size();
   const QPoint corner = pane->widget->mapToGlobal(QPoint());
   leave(id);
-  auto* window = new PaneWindow(pane->widget, pane->title, home_.window());
-  window->setObjectName("pane." + id);
+  auto* window = named("pane." + id, new PaneWindow(pane->widget, pane->title, home_.window()));
   if (!window->restoreGeometry(QSettings().value(place_key(id)).toByteArray())) {
     window->resize(size);
     window->move(corner);
@@ -134,14 +137,6 @@ void Panes::putBack(const QString& id) {
   emit changed(id);
 }
 
-void Panes::toggle(const QString& id) {
-  isTorn(id) ? putBack(id) : tear(id);
-}
-
-void Panes::toggleStacked(const QString& id) {
-  isStacked(id) ? putBack(id) : stack(id);
-}
-
 void Panes::remember(const QString& id) const {
   QSettings().setValue(place_key(id), windows_[id]->saveGeometry());
 }
@@ -168,9 +163,7 @@ void Panes::reset() {
 PaneWindow::PaneWindow(QWidget* widget, const QString& title, QWidget* owner)
     : QWidget(owner, Qt::Tool | Qt::WindowMaximizeButtonHint | Qt::WindowCloseButtonHint) {
   setWindowTitle(title);
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->addWidget(widget);
+  make_column(this, {widget});
   widget->show();
 }
 
@@ -185,12 +178,6 @@ bool is_divided_by_itself(const QSplitter& splitter) {
 
 void set_divided_by_itself(QSplitter& splitter, bool is_by_itself) {
   splitter.setProperty(kByItself, is_by_itself);
-}
-
-const QWidget* main_window_of(const QWidget& widget) {
-  const QWidget* window = widget.window();
-  const auto* pane = qobject_cast<const PaneWindow*>(window);
-  return pane && pane->parentWidget() ? pane->parentWidget()->window() : window;
 }
 
 TabStack::TabStack(QWidget* parent) : QTabWidget(parent) {
@@ -241,10 +228,6 @@ int TabStack::placeOf(const QWidget* pane) const {
     if (static_cast<const QScrollArea*>(widget(i))->widget() == pane) return i;
   }
   return -1;
-}
-
-void TabStack::bringToFront(QWidget* pane) {
-  setCurrentIndex(placeOf(pane));
 }
 
 void TabStack::release(QWidget* pane) {

@@ -9,11 +9,11 @@
 #include <QWidget>
 
 #include <functional>
+#include <utility>
 #include <vector>
 
 class QKeyEvent;
 class QSplitter;
-class QWidget;
 
 namespace episcope {
 
@@ -41,7 +41,7 @@ class Panes : public QObject {
 
   /// Sets where panes are stacked; without it they cannot be. Outlives this.
   void setStack(TabStack* stack);
-  void add(Pane pane);
+  void add(Pane pane) { panes_.push_back(std::move(pane)); }
   [[nodiscard]] bool isTorn(const QString& id) const { return windows_.contains(id); }
   [[nodiscard]] bool isStacked(const QString& id) const { return stacked_.contains(id); }
   /// Detaches a pane into a window with its last geometry; raises that window if it exists. Ignores
@@ -54,8 +54,8 @@ class Panes : public QObject {
   void stack(const QString& id);
   /// Docks a pane at its default place.
   void putBack(const QString& id);
-  void toggle(const QString& id);
-  void toggleStacked(const QString& id);
+  void toggle(const QString& id) { isTorn(id) ? putBack(id) : tear(id); }
+  void toggleStacked(const QString& id) { isStacked(id) ? putBack(id) : stack(id); }
   /// Id of a stacked pane; empty for another widget.
   [[nodiscard]] QString stackedPane(const QWidget* widget) const;
 
@@ -104,9 +104,6 @@ class PaneWindow : public QWidget {
 [[nodiscard]] bool is_divided_by_itself(const QSplitter& splitter);
 void set_divided_by_itself(QSplitter& splitter, bool is_by_itself);
 
-/// Main window of a widget, also for a widget in a detached pane.
-[[nodiscard]] const QWidget* main_window_of(const QWidget& widget);
-
 /// A second set of tabs below the window's tabs, for stacked panes. Hidden while empty. A tab's
 /// cross docks its pane; a double click detaches it.
 class TabStack : public QTabWidget {
@@ -119,7 +116,7 @@ class TabStack : public QTabWidget {
   void serve(Panes& panes);
   /// Adds a pane in front; it scrolls if there is little room.
   void take(QWidget* pane, const QString& title);
-  void bringToFront(QWidget* pane);
+  void bringToFront(QWidget* pane) { setCurrentIndex(placeOf(pane)); }
   /// Removes a pane, for others to place.
   void release(QWidget* pane);
 

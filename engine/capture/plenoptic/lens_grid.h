@@ -5,7 +5,6 @@
 #include "engine/core/image.h"
 #include "engine/core/progress.h"
 
-#include <array>
 #include <cstddef>
 #include <vector>
 

@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -68,7 +67,6 @@ struct RawPicture {
   std::string source{};  ///< What opens it again; empty = nothing does.
 };
 
-/// What a file of a raw picture holds.
 struct RawFile {
   RawPicture raw;
   std::optional<RawPicture> white{};  ///< The white picture that the container brings along.

@@ -24,7 +24,6 @@ constexpr double kLensRadius = 0.485;  // of the pitch
 constexpr int kRays = 4;               // of a pixel: quarters of its patch of the main lens
 constexpr double kRayOffset = 0.25;    // px
 
-/// A place below a lens, and the lens.
 struct BelowLens {
   int i = 0;
   int j = 0;
@@ -163,7 +162,6 @@ int pupil_reach(const SyntheticCamera& camera) {
   return static_cast<int>(std::ceil(0.6 * camera.pitch_px + 0.5));
 }
 
-/// A ray of a pixel, below its lens.
 PlanePoint ray_at(const BelowLens& place, int ray) {
   return {place.offset.x + (ray % 2 == 0 ? kRayOffset : -kRayOffset),
           place.offset.y + (ray / 2 == 0 ? kRayOffset : -kRayOffset)};

@@ -4,6 +4,7 @@
 #include "engine/core/text.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <cstring>
@@ -153,22 +154,8 @@ void swap_all(std::uint8_t* numbers, std::size_t count) {
 }  // namespace
 
 std::size_t byte_size(NumberType type) {
-  switch (type) {
-    case NumberType::Bool:
-    case NumberType::Int8:
-    case NumberType::UInt8:
-      return 1;
-    case NumberType::Int16:
-    case NumberType::UInt16:
-    case NumberType::Float16:
-      return 2;
-    case NumberType::Int32:
-    case NumberType::UInt32:
-    case NumberType::Float32:
-      return 4;
-    default:
-      return 8;
-  }
+  constexpr std::array<std::size_t, 12> kBytes{1, 1, 1, 2, 2, 4, 4, 8, 8, 2, 4, 8};
+  return kBytes[static_cast<std::size_t>(type)];
 }
 
 bool is_float(NumberType type) {

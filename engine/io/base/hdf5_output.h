@@ -55,7 +55,6 @@ class Hdf5Output {
                        const std::string& units);
   template <class T>
   void write(const std::string& name, const Hdf5Block& block, const T* in);
-  /// Whether it added a dataset of this name.
   [[nodiscard]] bool has(const std::string& dataset) const { return datasets_.contains(dataset); }
   /// Names the axes of all datasets added so far, which have these axes and lie in `group`: a
   /// dataset of the places of each axis, attached as dimension scale, as netCDF has it.

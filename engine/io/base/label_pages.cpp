@@ -18,7 +18,6 @@
 #include <cstdint>
 #include <iterator>
 #include <map>
-#include <optional>
 #include <string>
 
 namespace episcope::io {

@@ -21,7 +21,6 @@ struct ListedResult {
   std::string source;  ///< Its light field, as stored: absolute, or relative to the file's folder.
 };
 
-/// One light field of a collection.
 struct CollectionEntry {
   std::filesystem::path path;  ///< What opens it: a scene folder or a file.
   std::string name;            ///< For lists (scene_name).

@@ -205,14 +205,7 @@ class FilmDecoder {
   Owned<AVCodecContext> codec_;
 };
 
-}  // namespace
-
-bool is_film_name(const fs::path& path) {
-  constexpr std::array<std::string_view, 7> suffixes{".mp4",  ".mov", ".m4v", ".mkv",
-                                                     ".webm", ".avi", ".gif"};
-  return std::ranges::find(suffixes, suffix_of(path)) != suffixes.end();
-}
-
+// Whether a PNG file states that it holds three pictures or more (APNG).
 bool is_animated_png(const fs::path& path) {
   constexpr std::uint32_t kAnimation = 0x6163544c;  // "acTL"
   constexpr std::uint32_t kSamples = 0x49444154;    // "IDAT"
@@ -229,6 +222,14 @@ bool is_animated_png(const fs::path& path) {
     at += 12 + static_cast<std::streamoff>(file.number(at, 4, false));
   }
   return false;
+}
+
+}  // namespace
+
+bool is_film_name(const fs::path& path) {
+  constexpr std::array<std::string_view, 7> suffixes{".mp4",  ".mov", ".m4v", ".mkv",
+                                                     ".webm", ".avi", ".gif"};
+  return std::ranges::find(suffixes, suffix_of(path)) != suffixes.end();
 }
 
 Film read_film(const fs::path& path, int most, const Progress& progress) {
@@ -331,20 +332,16 @@ bool has_pages(const fs::path& path) {
   return has_tiff_name(path) && count_tiff_pages(path, kMostPictures) >= kFewestPages;
 }
 
-bool is_film(const fs::path& path) {
-  return is_film_name(path) || is_animated_png(path);
-}
-
 fs::path find_frames(const fs::path& path, const OpenOptions& options) {
   if (options.mosaic != Mosaic::Auto || options.lenslet > 0) return {};
-  if (!fs::is_directory(path)) return has_pages(path) || is_film(path) ? path : fs::path();
+  if (!fs::is_directory(path))
+    return has_pages(path) || is_film_name(path) || is_animated_png(path) ? path : fs::path();
   const std::vector<fs::path> images = list_images(path);
   const bool is_one =
       images.size() == 1 && (has_pages(images.front()) || is_animated_png(images.front()));
   return is_one ? images.front() : fs::path();
 }
 
-/// The pictures of a file, and what it is.
 struct Frames {
   std::vector<AnyImage> pictures;
   std::string what;                         ///< "pages", "pictures of a film (h264)".

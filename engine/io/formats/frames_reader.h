@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/indices.h"
 #include "engine/core/progress.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/models/reader.h"
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,9 +13,6 @@ namespace episcope::io {
 
 /// Whether the suffix is one of films: .mp4, .mov, .m4v, .mkv, .webm, .avi, .gif.
 [[nodiscard]] bool is_film_name(const std::filesystem::path& path);
-
-/// Whether a PNG file states that it holds three pictures or more (APNG).
-[[nodiscard]] bool is_animated_png(const std::filesystem::path& path);
 
 /// The pictures of a film, or of an animated PNG, RGB8.
 struct Film {

@@ -13,7 +13,6 @@
 
 namespace episcope::io {
 
-/// An entry of a file of arrays.
 struct ArrayEntry {
   std::string name;
   ArrayShape shape;  ///< As stored; empty if it is no array of numbers.

@@ -12,6 +12,7 @@
 #include <cctype>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -67,21 +68,14 @@ std::string entry_text(const ArrayEntry& entry) {
 
 /// "rows of views, columns of views, rows, columns, channels".
 std::string axes_text(const std::string& letters) {
-  return joined(letters, ", ", [](char letter) -> std::string {
-    switch (letter) {
-      case 'v':
-        return "rows of views";
-      case 'u':
-        return "columns of views";
-      case 'y':
-        return "rows of pixels";
-      case 'x':
-        return "columns of pixels";
-      case 'c':
-        return "channels";
-      default:
-        return "a list of views";
-    }
+  static const std::map<char, std::string> texts{{'v', "rows of views"},
+                                                 {'u', "columns of views"},
+                                                 {'y', "rows of pixels"},
+                                                 {'x', "columns of pixels"},
+                                                 {'c', "channels"}};
+  return joined(letters, ", ", [](char letter) {
+    const auto found = texts.find(letter);
+    return found == texts.end() ? std::string("a list of views") : found->second;
   });
 }
 

@@ -159,47 +159,25 @@ constexpr std::size_t kMostVariables = 10000;
 constexpr int kDeepestStruct = 3;  ///< Of structs in structs.
 
 std::optional<NumberType> number_type(const matvar_t& variable) {
-  switch (variable.class_type) {
-    case MAT_C_DOUBLE:
-      return NumberType::Float64;
-    case MAT_C_SINGLE:
-      return NumberType::Float32;
-    case MAT_C_INT8:
-      return NumberType::Int8;
-    case MAT_C_UINT8:
-      return NumberType::UInt8;
-    case MAT_C_INT16:
-      return NumberType::Int16;
-    case MAT_C_UINT16:
-      return NumberType::UInt16;
-    case MAT_C_INT32:
-      return NumberType::Int32;
-    case MAT_C_UINT32:
-      return NumberType::UInt32;
-    case MAT_C_INT64:
-      return NumberType::Int64;
-    case MAT_C_UINT64:
-      return NumberType::UInt64;
-    default:
-      return std::nullopt;
-  }
+  static const std::map<int, NumberType> types{
+      {MAT_C_DOUBLE, NumberType::Float64}, {MAT_C_SINGLE, NumberType::Float32},
+      {MAT_C_INT8, NumberType::Int8},      {MAT_C_UINT8, NumberType::UInt8},
+      {MAT_C_INT16, NumberType::Int16},    {MAT_C_UINT16, NumberType::UInt16},
+      {MAT_C_INT32, NumberType::Int32},    {MAT_C_UINT32, NumberType::UInt32},
+      {MAT_C_INT64, NumberType::Int64},    {MAT_C_UINT64, NumberType::UInt64}};
+  const auto found = types.find(variable.class_type);
+  return found == types.end() ? std::nullopt : std::optional(found->second);
 }
 
 const char* kind_name(const matvar_t& variable) {
-  switch (variable.class_type) {
-    case MAT_C_STRUCT:
-      return "struct";
-    case MAT_C_CELL:
-      return "cell array";
-    case MAT_C_CHAR:
-      return "text";
-    case MAT_C_SPARSE:
-      return "sparse matrix";
-    case MAT_C_FUNCTION:
-      return "function";
-    default:
-      return variable.isComplex ? "complex numbers" : "object";
-  }
+  static const std::map<int, const char*> names{{MAT_C_STRUCT, "struct"},
+                                                {MAT_C_CELL, "cell array"},
+                                                {MAT_C_CHAR, "text"},
+                                                {MAT_C_SPARSE, "sparse matrix"},
+                                                {MAT_C_FUNCTION, "function"}};
+  const auto found = names.find(variable.class_type);
+  if (found != names.end()) return found->second;
+  return variable.isComplex ? "complex numbers" : "object";
 }
 
 /// MATLAB's shape with its contiguous first axis last.

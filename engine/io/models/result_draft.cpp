@@ -186,7 +186,6 @@ namespace {
 
 constexpr std::uintmax_t kStructure = 1 << 16;
 
-// A dataset of the result.
 struct Dataset {
   DraftMap map;
   const char* name;
@@ -318,10 +317,6 @@ std::uintmax_t DraftFile::at(const Place& place, ViewIndex view, int row) const 
   const auto index =
       static_cast<std::uintmax_t>(view.v - maps.first.v) * maps.grid.u + (view.u - maps.first.u);
   return place.offset + (index * maps.height + row) * maps.width * sample_bytes(place.map);
-}
-
-void DraftFile::require(bool is_done) const {
-  if (!is_done) throw write_error(target_);
 }
 
 std::uintmax_t DraftFile::byte_size() const {

@@ -68,7 +68,9 @@ class DraftFile {
 
   [[nodiscard]] std::uintmax_t at(const Place& place, ViewIndex view, int row) const;
   [[nodiscard]] std::uintmax_t map_bytes(const Place& place) const;
-  void require(bool is_done) const;
+  void require(bool is_done) const {
+    if (!is_done) throw write_error(target_);
+  }
   void write_strips(const FileDescriptor& to, bool is_aside, const MapBlock& block,
                     const BlockMaps& maps) const;
 

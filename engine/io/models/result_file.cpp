@@ -217,7 +217,6 @@ std::string join_lines(const std::vector<std::string>& lines) {
   return text;
 }
 
-// Names and meanings of the maps of a result.
 constexpr std::pair<const char*, const char*> kMapMeanings[] = {
     {"disparity", "disparity; NaN = not known"},
     {"confidence", "confidence, 0 to 1"},

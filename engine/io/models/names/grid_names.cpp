@@ -91,6 +91,14 @@ PosedViews place_by(FoundPoses found) {
   return posed;
 }
 
+// Throws IoError that says why the poses form no light field.
+void refuse_poses(const fs::path& folder, const PosedViews& poses) {
+  throw IoError(folder, fmt::format("by {}, {}; a light field has parallel cameras on a plane, in "
+                                    "equal steps: render such views, or name rows and columns by "
+                                    "--grid if these are some",
+                                    poses.name(), poses.problem));
+}
+
 }  // namespace
 
 std::string PosedViews::name() const {
@@ -101,13 +109,6 @@ std::string PosedViews::name() const {
 
 bool has_parts_with_poses(const fs::path& folder) {
   return count_images(folder) == 0 && !images_of(folder).empty();
-}
-
-void refuse_poses(const fs::path& folder, const PosedViews& poses) {
-  throw IoError(folder, fmt::format("by {}, {}; a light field has parallel cameras on a plane, in "
-                                    "equal steps: render such views, or name rows and columns by "
-                                    "--grid if these are some",
-                                    poses.name(), poses.problem));
 }
 
 namespace {
@@ -301,7 +302,6 @@ ListLayout layout_of_list(const fs::path& folder, const ViewFiles& list, const O
   return layout;
 }
 
-/// The middle row, or column, as a list.
 ViewFiles middle_line(const ViewFiles& views, bool is_row) {
   const GridShape grid = views.grid;
   const ViewIndex center = grid.center();

@@ -28,9 +28,6 @@ struct PosedViews {
 /// Whether all images of a folder lie in subfolders that its files of poses name.
 [[nodiscard]] bool has_parts_with_poses(const std::filesystem::path& folder);
 
-/// Throws IoError that says why the poses form no light field.
-[[noreturn]] void refuse_poses(const std::filesystem::path& folder, const PosedViews& poses);
-
 /// Folder of images understood as a grid of views.
 struct NamedGrid {
   PlacedViews placed;

@@ -20,7 +20,6 @@ struct NameNumber {
 
   /// Value as an index: whole, of at most 18 digits.
   [[nodiscard]] std::optional<long long> count() const;
-  /// Value as an index with its sign.
   [[nodiscard]] std::optional<long long> signed_count() const;
   /// Value as a position, with its sign.
   [[nodiscard]] double position() const { return has_minus && value != 0 ? -value : value; }
@@ -37,7 +36,6 @@ struct NameParts {
 };
 [[nodiscard]] NameParts split_name(const std::filesystem::path& path);
 
-/// An image with the numbers of its name.
 struct NumberedImage {
   std::filesystem::path path;
   std::vector<NameNumber> numbers;

@@ -260,7 +260,6 @@ namespace {
 
 constexpr std::size_t kMostNamedReasons = 3;  ///< Reasons, and views of each.
 
-/// A part of a part of a grid, as a part of that grid.
 PartOfGrid part_of(const std::optional<PartOfGrid>& outer, const PartOfGrid& inner) {
   if (!outer) return inner;
   return {outer->whole, outer->in_whole(inner.first), outer->step * inner.step, inner.grid};

@@ -74,7 +74,6 @@ struct PatternPreview {
 [[nodiscard]] std::optional<ViewNames> find_folders_with(const std::filesystem::path& folder,
                                                          const std::string& picture);
 
-/// Folders that hold a row of views each.
 struct RowFolders {
   std::vector<std::vector<std::filesystem::path>> rows;  ///< Of images, by number.
   std::vector<std::vector<double>> numbers;              ///< Of these images, in their names.

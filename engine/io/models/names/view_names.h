@@ -21,14 +21,12 @@ struct ViewNames {
   bool is_turned = false;  ///< `with_turned_rows`.
 };
 
-/// Gaps in a list of views.
 struct ListGaps {
   std::vector<int> places{};  ///< Where in the whole list each view is, from 0.
   int length = 0;             ///< Of the whole list.
   std::string text{};         ///< "view 37 is missing (pattern … matches 80 of 80 images, …)".
 };
 
-/// Views in their places.
 struct PlacedViews {
   ViewFiles views;
   bool is_list = false;  ///< One index: the grid is 1×N, and rows and columns are yet unknown.
