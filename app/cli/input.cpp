@@ -163,7 +163,7 @@ Scene load_input_of(const NamedReading& result, const std::string& input,
 
 ViewIndex view_of(const LightField& light_field, ViewIndex view) {
   if (light_field.grid().contains(view)) return view;
-  throw UsageError(fmt::format(
+  throw InvalidInput(fmt::format(
       "{} has {}×{} views, but view {} was asked for; views are counted from 0",
       light_field.info().name, light_field.grid().v, light_field.grid().u, view_text(view)));
 }

@@ -78,7 +78,7 @@ struct NamedReading {
 [[nodiscard]] Scene load_input_of(const NamedReading& result, const std::string& input,
                                   const ReadOptions& options, const Progress& progress);
 
-/// The view itself. Throws UsageError if the light field has no such view.
+/// The view itself. Throws InvalidInput if the light field has no such view.
 [[nodiscard]] ViewIndex view_of(const LightField& light_field, ViewIndex view);
 
 /// The middle view of a stack, or its only one.

@@ -20,7 +20,6 @@
 #include "engine/core/text.h"
 #include "engine/io/base/hdf5_file.h"
 #include "engine/io/base/json.h"
-#include "engine/io/base/npy.h"
 #include "engine/io/models/labels/label_import.h"
 #include "engine/io/models/result_file.h"
 #include "engine/io/models/scribble_file.h"
@@ -30,7 +29,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -383,27 +381,6 @@ bool is_pose(const fs::path& path) {
   return json.is_object() && json.contains("rotation") && json.contains("translation");
 }
 
-/// Whether an array of all views is smooth and has negative values, as disparity and no view has.
-bool looks_like_disparity(const std::string& input) {
-  constexpr double kSmallStep = 0.02, kMostSteps = 0.9;
-  if (suffix_of(input) != ".npy") return false;
-  const io::NpyFile file(input);
-  io::ArrayShape view = file.shape();
-  if (view.size() != 4 || !io::is_float(file.type()) || file.header().is_fortran) return false;
-  view[0] = view[1] = 1;
-  std::vector<float> values(view[2] * view[3]);
-  file.read(io::ArrayShape(4, 0), view, values.data());
-  std::erase_if(values, [](float value) { return !std::isfinite(value); });
-  if (values.empty()) return false;
-  const auto [least, most] = std::ranges::minmax(values);
-  const double small_step = kSmallStep * (most - least);
-  std::size_t small = 0;
-  for (std::size_t i = 1; i < values.size(); ++i) {
-    if (std::abs(values[i] - values[i - 1]) <= small_step) ++small;
-  }
-  return least < 0 && static_cast<double>(small) >= kMostSteps * static_cast<double>(values.size());
-}
-
 /// Describes a result, labels, also those of the archive, a project of the window, a camera or a
 /// pose. Nothing for what else there is, such as light fields. Throws IoError for a damaged file.
 std::optional<FileInfo> describe_file(const std::string& input, Reads reads) {
@@ -415,8 +392,7 @@ std::optional<FileInfo> describe_file(const std::string& input, Reads reads) {
   const std::string suffix = suffix_of(input);
   if (suffix == ".yml" || suffix == ".yaml") return describe_camera(input);
   if (is_pose(input)) return describe_pose(input);
-  if (reads == Reads::AsViews) return {};
-  if (names_result(input) || looks_like_disparity(input)) return describe_result(input);
+  if (reads == Reads::AsItIs && names_result(input)) return describe_result(input);
   return {};
 }
 

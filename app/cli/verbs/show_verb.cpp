@@ -214,19 +214,8 @@ void load_result(const ShownMap& shown, const ReadOptions& read, LoadedMap& load
   loaded.source.estimate = std::move(estimate);
 }
 
-/// What an option asks for that is not there is wrong usage.
-template <class Run>
-auto as_usage(const Run& run) {
-  try {
-    return run();
-  } catch (const InvalidInput& error) {
-    throw UsageError(error.what());
-  }
-}
-
 void load_labels(const ShownMap& shown, const ReadOptions& read, LoadedMap& loaded, Job& job) {
-  const Segmentation segmentation =
-      as_usage([&] { return read_segmentation(shown.subject, shown.view); });
+  const Segmentation segmentation = read_segmentation(shown.subject, shown.view);
   loaded.source.view = segmentation.labeling->labels.first();
   loaded.source.labeling = segmentation.labeling;
   loaded.source.label_infos = segmentation.labels;
@@ -267,7 +256,6 @@ LoadedMap load_map(const ShownMap& shown, const ReadOptions& read, Job& job) {
   if (shown.kind == ShownKind::Labels) load_labels(shown, read, loaded, job);
   if (shown.quantity == Quantity::Edges) add_edges(loaded, job.progress());
   const std::string reason = reason_against(loaded.source);
-  if (!reason.empty() && shown.view) throw UsageError(reason);
   if (!reason.empty()) throw InvalidInput(reason);
   if (subject_of(shown) == Subject::Error) {
     loaded.source.evaluation = std::make_shared<const Evaluation>(
@@ -594,10 +582,8 @@ void tell_colors(const ShowRequest& request, const LoadedMap& loaded, Drawn& dra
 
 Drawn write_picture(const ShowRequest& request, const LoadedMap& loaded, Job& job) {
   const MapSource& source = loaded.source;
-  RgbaImage picture =
-      request.what.is_epi
-          ? as_usage([&] { return epi_picture(request, *source.light_field, source.view); })
-          : picture_of(request, loaded, source);
+  RgbaImage picture = request.what.is_epi ? epi_picture(request, *source.light_field, source.view)
+                                          : picture_of(request, loaded, source);
   if (request.longest_px > 0) picture = render::fitted(picture, request.longest_px);
   if (request.has_legend) {
     picture = render::with_legend(

@@ -55,7 +55,7 @@ endforeach()
 expect("show by default" 0 OUT "labels, 96×96 px" ARGS show l.h5 -o l.png)
 expect("show an unknown label" 1 ERR "no label 7; it has 1, 2, 3"
        ARGS show l.h5 -o no.png --what probability --label 7)
-expect("show a view that is not there" 2 ERR "view 5,5 was asked for"
+expect("show a view that is not there" 1 ERR "view 5,5 was asked for"
        ARGS show l.h5 -o no.png --view 5,5)
 expect("show what labels lack" 2 ERR "is a file of labels" ARGS show l.h5 -o no.png --what view)
 expect("labels alone" 0 ARGS label lf.h5 -o bare.h5 --features image --regularizer none --trees 8

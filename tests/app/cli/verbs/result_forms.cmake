@@ -47,12 +47,6 @@ foreach(suffix npy npz mat)
   endforeach()
   expect("info of all views of ${suffix}" 0 OUT "3×3 views of 48×40 px" ARGS info all_disparity.${suffix})
 endforeach()
-# Also by another name, as smooth maps with negative values.
-expect("the truth of all views" 0 ARGS convert objects t.npy --to map --views all)
-expect("info of the truth of all views" 0 OUT "^result +a map of another program\nshape +3×3 views"
-       ARGS info t.npy)
-expect("an array of views" 0 ARGS convert objects views.npy)
-expect("info of views" 0 OUT "^name +views" ARGS info views.npy)
 # Confidence, where the form can.
 expect("the confidence itself" 0 ARGS show r.h5 -o confidence.png --what confidence)
 file(SHA256 "${WORK}/confidence.png" first)
