@@ -146,6 +146,24 @@ Metadata parse_metadata(const std::string& text, const char* what) {
   }
 }
 
+/// What the camera says of the picture. Calibration data wrap it, with the private metadata.
+Metadata frame_of(const std::string& metadata, const std::string& private_metadata) {
+  Metadata json = parse_metadata(metadata, "metadata");
+  Metadata hidden;
+  if (!private_metadata.empty()) hidden = parse_metadata(private_metadata, "private metadata");
+  if (const Metadata* frame = at(json, {"master", "picture", "frameArray", "frame"});
+      frame && !at(json, {"image"})) {
+    if (const Metadata* part = at(*frame, {"privateMetadata"})) hidden = *part;
+    if (const Metadata* part = at(*frame, {"metadata"})) json = Metadata(*part);
+  }
+  const std::string serial = text_at(hidden, {"camera", "serialNumber"});
+  if (serial.empty() || !json.is_object()) return json;
+  Metadata& camera = json["camera"];
+  if (!camera.is_object()) camera = Metadata::object();
+  camera["serialNumber"] = serial;
+  return json;
+}
+
 std::vector<std::uint8_t> bytes_of(const fs::path& path) {
   io::require_openable_file(path);
   std::ifstream file(path, std::ios::binary);
@@ -362,16 +380,11 @@ std::vector<std::uint8_t> pack(const Image<std::uint16_t>& samples, Packing pack
 
 RawPicture raw_from_json(ByteView samples, const std::string& metadata,
                          const std::string& private_metadata) {
-  const Metadata json = parse_metadata(metadata, "metadata");
+  const Metadata json = frame_of(metadata, private_metadata);
   const Metadata& details = details_of(json);
   const Packing packing = packing_of(details);
   RawPicture raw;
   raw.facts = facts_of(json);
-  if (!private_metadata.empty()) {
-    const Metadata hidden = parse_metadata(private_metadata, "private metadata");
-    const std::string serial = text_at(hidden, {"camera", "serialNumber"});
-    if (!serial.empty()) raw.facts.serial = serial;
-  }
   raw.mosaic = mosaic_of(details);
   raw.colors = colors_of(json);
   raw.black = number_at(details, {"pixelFormat", "black", "gr"}).value_or(0);
@@ -390,7 +403,7 @@ bool holds_raw(const LfpContainer& container) {
 }
 
 RawFacts facts_from_json(const std::string& metadata) {
-  return facts_of(parse_metadata(metadata, "metadata"));
+  return facts_of(frame_of(metadata, {}));
 }
 
 RawFile read_raw(const fs::path& path) {
@@ -425,6 +438,16 @@ std::string f01_metadata(const RawPicture& raw) {
   json["image"]["color"] = {{"ccmRgbToSrgbArray", raw.colors.to_srgb},
                             {"gamma", raw.colors.gamma},
                             {"whiteBalanceGain", gains(raw.colors)}};
+  return io::json_text(json, 2);
+}
+
+std::string calibration_metadata(const RawPicture& raw) {
+  Metadata frame;
+  frame["metadata"] = io::parse_json<Metadata>(f01_metadata(raw));
+  frame["privateMetadata"]["camera"]["serialNumber"] = raw.facts.serial;
+  frame["metadata"]["camera"].erase("serialNumber");
+  Metadata json;
+  json["master"]["picture"]["frameArray"] = {{{"frame", std::move(frame)}}};
   return io::json_text(json, 2);
 }
 

@@ -91,7 +91,8 @@ struct RawFile {
 [[nodiscard]] Image<std::uint16_t> unpack(ByteView bytes, Packing packing, int height, int width);
 [[nodiscard]] std::vector<std::uint8_t> pack(const Image<std::uint16_t>& samples, Packing packing);
 
-/// A raw picture out of the bytes of its samples and the JSON of the camera, of either generation.
+/// A raw picture out of the bytes of its samples and the JSON of the camera, of either generation
+/// or of calibration data, which wrap it (master.picture.frameArray[0].frame).
 /// Throws InvalidInput for JSON that lacks what is needed or says what cannot be, or other bytes.
 [[nodiscard]] RawPicture raw_from_json(ByteView samples, const std::string& metadata,
                                        const std::string& private_metadata);
@@ -99,5 +100,7 @@ struct RawFile {
 /// JSON of the first generation (F01) or the second (Illum) that `raw_from_json` reads, for `raw`.
 [[nodiscard]] std::string f01_metadata(const RawPicture& raw);
 [[nodiscard]] std::string illum_metadata(const RawPicture& raw);
+/// JSON beside a white picture of an F01's calibration data.
+[[nodiscard]] std::string calibration_metadata(const RawPicture& raw);
 
 }  // namespace episcope::capture

@@ -195,6 +195,17 @@ class RawFilesTest : public QObject {
     }
   }
 
+  // As the camera writes MOD_nnnn.TXT.
+  void metadata_ofCalibrationData_areReadWithinTheirFrame() {
+    const RawPicture f01 = counting(12, Mosaic::Bggr, "A7");
+    const std::string json = calibration_metadata(f01);
+    const RawPicture read = raw_from_json(pack(f01.samples, Packing::Bits12), json, {});
+    QVERIFY(std::ranges::equal(read.samples, f01.samples));
+    QCOMPARE(facts_from_json(json).serial, std::string("A7"));
+    QCOMPARE(*facts_from_json(json).zoom_step, 100.0);
+    QVERIFY(QString::fromStdString(json).contains("privateMetadata"));
+  }
+
   void container_bringsItsWhitePicture() {
     good_container();
     const RawFile file = read_raw(path("good.lfr"));
