@@ -117,6 +117,7 @@ RawColors colors_of(const Metadata& json) {
   RawColors colors;
   const Metadata* gains = at(json, {"image", "color", "whiteBalanceGain"});
   if (!gains) gains = at(json, {"algorithms", "awb", "computed", "gain"});
+  colors.is_balanced = gains != nullptr;
   const char* keys[] = {"r", "gr", "b"};
   for (int c = 0; gains && c < 3; ++c) {
     const double gain = number_at(*gains, {keys[c]}).value_or(1);
@@ -142,7 +143,7 @@ Metadata parse_metadata(const std::string& text, const char* what) {
   try {
     return io::parse_json<Metadata>(text);
   } catch (const Metadata::exception&) {
-    throw InvalidInput(fmt::format("the {} of this picture are no JSON", what));
+    throw InvalidInput(fmt::format("the {} of this picture cannot be read as JSON", what));
   }
 }
 
@@ -172,9 +173,9 @@ std::vector<std::uint8_t> bytes_of(const fs::path& path) {
 
 /// The JSON beside a bare .raw.
 fs::path metadata_beside(const fs::path& path) {
-  for (const char* suffix : {".txt", ".TXT", ".json", ".JSON"}) {
+  for (const char* end : {".txt", ".TXT", ".json", ".JSON", "_metadata.json"}) {
     fs::path beside = path;
-    beside.replace_extension(suffix);
+    beside.replace_filename(path.stem().string() + end);
     std::error_code error;
     if (fs::is_regular_file(beside, error)) return beside;
   }
@@ -329,6 +330,16 @@ std::vector<std::pair<std::string, std::string>> RawFacts::table() const {
   add("pixel pitch", pixel_pitch_um, " µm");
   add("lens pitch", lens_pitch_um, " µm");
   return rows;
+}
+
+WhiteExposure exposure_of(const RawPicture& picture) {
+  std::vector<std::uint16_t> samples(picture.samples.begin(), picture.samples.end());
+  const auto level = samples.begin() + static_cast<std::ptrdiff_t>(samples.size() * 9 / 10);
+  std::ranges::nth_element(samples, level);
+  const auto saturated =
+      std::ranges::count_if(samples, [&](std::uint16_t sample) { return sample >= picture.white; });
+  return {(*level - picture.black) / (picture.white - picture.black),
+          static_cast<double>(saturated) / static_cast<double>(samples.size())};
 }
 
 Image<std::uint16_t> unpack(ByteView bytes, Packing packing, int height, int width) {

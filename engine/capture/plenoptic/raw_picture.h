@@ -53,7 +53,8 @@ struct RawColors {
   std::array<double, 3> balance{1, 1, 1};  ///< Gains of red, green, blue.
   /// Camera to linear sRGB, row by row; out = M·in.
   std::array<double, 9> to_srgb{1, 0, 0, 0, 1, 0, 0, 0, 1};
-  double gamma = 1;  ///< Exponent: shown = linear^gamma.
+  double gamma = 1;          ///< Exponent: shown = linear^gamma.
+  bool is_balanced = false;  ///< The camera told the gains.
 };
 
 /// A picture as the sensor saw it.
@@ -67,6 +68,17 @@ struct RawPicture {
   std::string name{};    ///< Of its file.
   std::string source{};  ///< What opens it again; empty = nothing does.
 };
+
+/// Largest share of saturated samples, and least level, of a white picture that is exposed well.
+inline constexpr double kMostSaturated = 0.01;
+inline constexpr double kDarkWhite = 0.1;
+
+/// How much light a white picture got.
+struct WhiteExposure {
+  double level = 0;      ///< That a tenth of the samples exceeds, from black (0) to white (1).
+  double saturated = 0;  ///< Share of the samples.
+};
+[[nodiscard]] WhiteExposure exposure_of(const RawPicture& picture);
 
 /// What a file of a raw picture holds.
 struct RawFile {

@@ -357,6 +357,7 @@ SyntheticCamera synthetic_camera(CameraModel model) {
   camera.black = is_f01 ? 168 : 64;
   camera.white = is_f01 ? 4095 : 1023;
   camera.colors.balance = {1.3, 1, 1.26};
+  camera.colors.is_balanced = true;
   camera.colors.to_srgb = {1.6, -0.5, -0.1, -0.2, 1.5, -0.3, 0.05, -0.45, 1.4};
   camera.colors.gamma = 0.41666;
   return camera;

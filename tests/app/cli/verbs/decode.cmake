@@ -6,6 +6,10 @@ expect("decode" 0 ERR "MOD_0001.RAW .*nearest of 2" OUT "hexagonal lenses: pitch
        ARGS decode f01/raw.lfp --white f01/calibration -o lf.h5)
 expect("what the camera said" 0 OUT "decoded from raw.lfp.*serial A000000001.*zoom step 600"
        ARGS info lf.h5)
+expect("samples and sign are kept" 0 OUT "uint16, gamma-encoded.*sign: *checked" ARGS info lf.h5)
+expect("linear" 0 OUT "linear samples" ARGS decode f01/raw.lfp --white f01/calibration --linear --mosaic GRBG
+       ERR "--mosaic is ignored" -o linear.h5)
+expect("linear is kept" 0 OUT "uint16, linear" ARGS info linear.h5)
 expect("again" 1 ERR "--overwrite" ARGS decode f01/raw.lfp -o lf.h5)
 expect("as JSON" 0 ERR "nearest of 2" ARGS decode f01/raw.lfp --white f01/calibration --views 5
        -o five.h5 --json)
@@ -48,7 +52,8 @@ execute_process(COMMAND sh -c "z='\\0\\0\\0\\0'; z35=\"$z$z$z$z$z$z$z$z\\0\\0\\0
   WORKING_DIRECTORY "${WORK}")
 expect("a processed container is a picture" 0 OUT "1×1.*note.*depthMap of 2×2 px" ARGS info a-dm.lfp)
 expect("it has no light field" 2 ERR "depthMap of 2×2 px.*new folder" ARGS decode a-dm.lfp -o a.h5)
-expect("its files" 0 OUT "depthMap of 2×2 px" ARGS decode a-dm.lfp -o processed)
+expect("its files" 0 OUT "depthMap of 2×2 px.*processed/depthMap.pfm" ERR "--views is ignored"
+       ARGS decode a-dm.lfp --views 3 -o processed)
 if(NOT EXISTS "${WORK}/processed/depthMap.pfm")
   message(FATAL_ERROR "no depth map was written")
 endif()
