@@ -37,10 +37,11 @@ constexpr std::size_t kCompared = 100;
 constexpr int kSmooth = 11;  // px; edges of larger lenses remain
 constexpr std::size_t kMeasuredScene = 600;
 constexpr std::size_t kLensesForCubic = 300;
-constexpr double kFaintest = 0.002;             // amplitude of the lattice over the mean
-constexpr double kWorstResidual = 0.03;         // of the pitch
-constexpr double kWorstResidualOfScene = 0.02;  // of many lenses; photographs have 0.023 and more
-constexpr double kFewestInliers = 0.6;          // of the lenses that the lattice has there
+constexpr double kFaintest = 0.002;      // amplitude of the lattice over the mean
+constexpr double kWorstResidual = 0.03;  // of the pitch
+// Of a scene: photographs have 0.023 and more, but in the square lattices that they show.
+constexpr double kWorstOfSquareScene = 0.02, kWorstOfHexagonalScene = 0.07;
+constexpr double kFewestInliers = 0.6;  // of the lenses that the lattice has there
 
 [[noreturn]] void refuse(const std::string& why) {
   throw InvalidInput("no array of microlenses was found in this picture: " + why +
@@ -489,7 +490,9 @@ LensGrid fit_lens_grid(const Image<float>& picture, const Progress& progress, Le
     describe(grid);
     if (is_all) break;
   }
-  const double worst = is_scene ? kWorstResidualOfScene : kWorstResidual;
+  const double worst = !is_scene                             ? kWorstResidual
+                       : grid.lattice == LensLattice::Square ? kWorstOfSquareScene
+                                                             : kWorstOfHexagonalScene;
   if (grid.residual_px > worst * grid.pitch_px ||
       static_cast<double>(grid.lenses) < kFewestInliers * expected) {
     refuse(fmt::format("the strongest pattern, of {:.2f} px, fits at {} of {} places, to {:.2f} px",
