@@ -248,12 +248,12 @@ OpenedScene decode_raw(const py::object& raw, const py::object& white, const py:
   const auto path = [](const py::object& file) {
     return file.is_none() ? std::string() : path_from(file);
   };
-  if (views < 0 || (views > 0 && views % 2 == 0) || step < 0) {
+  if (views < 0 || (views > 0 && views % 2 == 0) || !(step >= 0)) {
     throw InvalidInput("views must be odd and step above 0; 0 leaves them to the lenses");
   }
   capture::PictureFiles files{path(raw), path(white), path(dark), path(camera), {}};
   for (const auto& each : names_of(capture::Mosaic{})) {
-    if (mosaic == each.name) files.mosaic = each.value;
+    if (lower_case(mosaic) == each.name) files.mosaic = each.value;
   }
   if (!files.mosaic) {
     throw InvalidInput("mosaic is '" + mosaic + "', but must be one of " +

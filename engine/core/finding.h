@@ -421,6 +421,10 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
     {"plenoptic.white_nearest",
      "white picture {} ({}) is the nearest of {} to the raw picture ({})", "White picture %1",
      FindingLevel::Note},
+    {"plenoptic.white_exposed",
+     "white picture {} ({}) is the nearest of {} to the raw picture ({}), and better exposed than "
+     "{}",
+     "White picture %1", FindingLevel::Note},
     {"plenoptic.white_steps", "white picture {} ({}); the raw picture has {}", "White picture %1",
      FindingLevel::Note},
     {"plenoptic.dark", "dark picture {}", "Dark picture %1", FindingLevel::Note},
@@ -429,6 +433,23 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
      "vignetting "
      "remains; give one with --white",
      "No white picture: vignetting remains"},
+    {"plenoptic.white_off",
+     "The raw picture shows its lenses {:.2f} px from those of the white picture: it is of another "
+     "camera or zoom, or the raw picture is too dark to tell.",
+     "The white picture's lenses are %1 px off."},
+    {"plenoptic.white_saturated",
+     "{:.1f} % of the white picture is saturated: what the lenses shade is not known there. Expose "
+     "it shorter.",
+     "%1 % of the white picture is saturated."},
+    {"plenoptic.white_dark",
+     "The white picture has only {:.1f} % of the light that the sensor can take, so its noise "
+     "remains in the views. Expose it longer.",
+     "The white picture is dark: %1 % of the range."},
+    {"plenoptic.neutral",
+     "colors were made neutral by the white picture: red times {:.2f}, blue times {:.2f}",
+     {},
+     FindingLevel::Note},
+    {"plenoptic.bits", "samples of {} bits, according to the largest one", {}, FindingLevel::Note},
     {"plenoptic.pitch",
      "The lenses were found {:.2f} px apart, but according to its pitches of lenses and pixels the "
      "camera has them {:.2f} px apart: check the white picture and the optics.",

@@ -3255,6 +3255,42 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <source>true labels</source>
         <translation>Labels der Referenz</translation>
     </message>
+    <message>
+        <source>%1 % of the white picture is saturated.</source>
+        <translation>%1 % des Weißbilds sind gesättigt.</translation>
+    </message>
+    <message>
+        <source>%1 % of the white picture is saturated: what the lenses shade is not known there. Expose it shorter.</source>
+        <translation>%1 % des Weißbilds sind gesättigt: Was die Linsen dort abschatten, ist nicht bekannt. Kürzer belichten.</translation>
+    </message>
+    <message>
+        <source>The raw picture shows its lenses %1 px from those of the white picture: it is of another camera or zoom, or the raw picture is too dark to tell.</source>
+        <translation>Das Rohbild zeigt seine Linsen %1 px neben denen des Weißbilds: Es ist von einer anderen Kamera oder einem anderen Zoom, oder das Rohbild ist zu dunkel, um es zu erkennen.</translation>
+    </message>
+    <message>
+        <source>The white picture has only %1 % of the light that the sensor can take, so its noise remains in the views. Expose it longer.</source>
+        <translation>Das Weißbild hat nur %1 % des Lichts, das der Sensor fasst, sodass sein Rauschen in den Ansichten bleibt. Länger belichten.</translation>
+    </message>
+    <message>
+        <source>The white picture is dark: %1 % of the range.</source>
+        <translation>Das Weißbild ist dunkel: %1 % des Bereichs.</translation>
+    </message>
+    <message>
+        <source>The white picture&apos;s lenses are %1 px off.</source>
+        <translation>Die Linsen des Weißbilds liegen %1 px daneben.</translation>
+    </message>
+    <message>
+        <source>colors were made neutral by the white picture: red times %1, blue times %2</source>
+        <translation>Farben nach dem Weißbild neutral gemacht: Rot mal %1, Blau mal %2</translation>
+    </message>
+    <message>
+        <source>samples of %1 bits, according to the largest one</source>
+        <translation>Werte von %1 Bit, nach dem größten</translation>
+    </message>
+    <message>
+        <source>white picture %1 (%2) is the nearest of %3 to the raw picture (%4), and better exposed than %5</source>
+        <translation>Weißbild %1 (%2) ist von %3 das nächste zum Rohbild (%4) und besser belichtet als %5</translation>
+    </message>
 </context>
 <context>
     <name>episcope::FocusController</name>

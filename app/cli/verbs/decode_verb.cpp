@@ -6,11 +6,15 @@
 #include "engine/capture/plenoptic/decode_files.h"
 #include "engine/capture/plenoptic/lfp_container.h"
 #include "engine/capture/plenoptic/processed_container.h"
+#include "engine/core/finding.h"
+#include "engine/core/text.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <iostream>
+#include <utility>
+#include <vector>
 
 namespace episcope::cli {
 namespace {
@@ -50,7 +54,11 @@ bool parse(const VerbArguments& arguments, DecodeRequest& request) {
   parser.option("--camera", request.camera, text_value("FILE"),
                 "Optics of a laboratory camera: [sensor] pixel_size_x, [micro_lens] "
                 "physical_size_s, [main_lens] f1, in mm");
-  parser.option("--mosaic", request.mosaic, choice_of<capture::Mosaic>(),
+  OptionValue<capture::Mosaic> mosaic = choice_of<capture::Mosaic>();
+  mosaic.read = [read = mosaic.read](const std::string& option, const std::string& text) {
+    return read(option, lower_case(text));
+  };
+  parser.option("--mosaic", request.mosaic, mosaic,
                 "Colors of the first pixels of a picture whose file does not tell (default gray)");
   parser.option("--views", request.options.views, integer_value("N", 1, kMostViews),
                 "Views along each axis, odd (default: as many as a lens has room for)");
@@ -76,7 +84,7 @@ Json answer(const capture::Decoded& decoded, const capture::RawPicture& raw,
   json["views"] = Json::object({{"v", field.grid().v}, {"u", field.grid().u}});
   json["width"] = field.width();
   json["height"] = field.height();
-  json["lattice"] = grid.lattice == capture::LensLattice::Hexagonal ? "hexagonal" : "square";
+  json["lattice"] = capture::lattice_name(grid.lattice);
   json["pitch_px"] = grid.pitch_px;
   json["rotation_degrees"] = grid.rotation_degrees;
   json["residual_px"] = grid.residual_px;
@@ -105,16 +113,29 @@ void print(const capture::Decoded& decoded, const capture::RawPicture& raw,
       "views {:.3g} px apart, {:.1f} % of their samples valid, {} hot pixels replaced, sharpness "
       "{:.3f}\n",
       output, field.grid().v, field.grid().u, field.width(), field.height(),
-      decoded.is_gamma_encoded ? "gamma-encoded" : "linear",
-      grid.lattice == capture::LensLattice::Hexagonal ? "hexagonal" : "square", grid.pitch_px,
-      grid.rotation_degrees, grid.lenses, grid.residual_px, grid.measured - grid.lenses,
-      decoded.step_px, decoded.valid_percent, decoded.hot_pixels, decoded.sharpness);
+      decoded.is_gamma_encoded ? "gamma-encoded" : "linear", capture::lattice_name(grid.lattice),
+      grid.pitch_px, grid.rotation_degrees, grid.lenses, grid.residual_px,
+      grid.measured - grid.lenses, decoded.step_px, decoded.valid_percent, decoded.hot_pixels,
+      decoded.sharpness);
   for (const auto& [key, value] : raw.facts.table()) std::cout << key << ": " << value << '\n';
 }
 
 void check_outputs(const DecodeRequest& request) {
   check_hdf5_output("decode", request.output);
   check_light_field_output(request.output, request.overwrite);
+}
+
+/// Tells which options do nothing for processed pictures.
+void note_ignored(const DecodeRequest& request, Job& job) {
+  const std::pair<const char*, bool> given[] = {
+      {"white", !request.white.empty()},    {"dark", !request.dark.empty()},
+      {"camera", !request.camera.empty()},  {"mosaic", request.mosaic.has_value()},
+      {"views", request.options.views > 0}, {"step", request.options.step_px > 0},
+      {"linear", request.options.is_linear}};
+  for (const auto& [option, is_given] : given) {
+    if (!is_given) continue;
+    job.note(fmt::format(finding_text("option.ignored"), option, "a processed picture"));
+  }
 }
 
 /// Of a container without a raw picture; false for any other file.
@@ -127,10 +148,13 @@ bool write_processed(const DecodeRequest& request, Job& job) {
         fmt::format("{} holds {}, which are written into a new folder; name one with -o",
                     request.raw, container->text()));
   }
-  capture::write_processed(request.output, *container, job.progress());
+  note_ignored(request, job);
+  const std::vector<std::string> written =
+      capture::write_processed(request.output, *container, job.progress());
   job.finish();
   if (!request.is_json) {
     std::cout << request.output << ": " << container->text() << '\n';
+    for (const std::string& file : written) std::cout << file << '\n';
     return true;
   }
   Json json;
@@ -138,7 +162,7 @@ bool write_processed(const DecodeRequest& request, Job& job) {
   json["maps"] = Json::array();
   for (const capture::ProcessedMap& map : container->maps) json["maps"].push_back(map.name);
   json["output"] = request.output;
-  print_answer(std::move(json), job.notes(), {request.output});
+  print_answer(std::move(json), job.notes(), written);
   return true;
 }
 

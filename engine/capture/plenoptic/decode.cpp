@@ -25,6 +25,7 @@ constexpr double kLeastShare = 0.02;  // of the light; what is darker is not mad
 constexpr float kHotMargin = 0.06F;   // of the sensor's range; hot pixels exceed it
 constexpr float kOtherLens = 1e-3F;  // weight of pixels below another lens: only if there is no own
 constexpr double kMostViews = 15;
+constexpr double kWorstOff = 0.06;  // of the pitch, of lenses that are those of the raw picture
 constexpr double kBrightLenses = 0.995;  // quantile of lenses that makes 1
 
 using Levels = std::array<double, 3>;
@@ -35,16 +36,18 @@ class Light {
   Light(const RawPicture& picture, const std::optional<RawPicture>& dark)
       : picture_(picture),
         dark_(dark ? &dark->samples : nullptr),
+        dark_scale_(dark ? picture.white / dark->white : 1),
         range_(1 / (picture.white - picture.black)) {}
 
   [[nodiscard]] double at(int y, int x) const {
-    const double black = dark_ ? dark_->at(y, x) : picture_.black;
+    const double black = dark_ ? dark_->at(y, x) * dark_scale_ : picture_.black;
     return (picture_.samples.at(y, x) - black) * range_;
   }
 
  private:
   const RawPicture& picture_;
   const Image<std::uint16_t>* dark_;
+  double dark_scale_;  ///< Its samples may have other bits.
   double range_;
 };
 
@@ -104,8 +107,9 @@ Levels center_levels(const RawPicture& white, const Light& light, const LensGrid
 
 /// What the sensor saw, vignetting removed, and the share of the light that this leaves.
 struct Devignetted {
-  Image<float> light;  ///< 1 = saturation.
-  Image<float> share;  ///< Empty without a white picture.
+  Image<float> light;      ///< 1 = saturation.
+  Image<float> share;      ///< Empty without a white picture.
+  Levels levels{1, 1, 1};  ///< Of the white picture's colors.
 
   [[nodiscard]] float share_at(int y, int x) const { return share.empty() ? 1 : share.at(y, x); }
 };
@@ -122,11 +126,11 @@ Devignetted devignetted(const PlenopticPictures& pictures, const LensGrid& grid,
     return result;
   }
   const Light white(*pictures.white, pictures.dark);
-  const Levels levels = center_levels(*pictures.white, white, grid);
+  result.levels = center_levels(*pictures.white, white, grid);
   result.share = Image<float>(height, width);
   parallel_for(height, progress, [&](int y) {
     for (int x = 0; x < width; ++x) {
-      const double share = white.at(y, x) / levels[color_at(pictures.raw.mosaic, y, x)];
+      const double share = white.at(y, x) / result.levels[color_at(pictures.raw.mosaic, y, x)];
       result.share.at(y, x) = static_cast<float>(share);
       result.light.at(y, x) = static_cast<float>(raw.at(y, x) / std::max(share, kLeastShare));
     }
@@ -152,7 +156,7 @@ std::size_t replace_hot_pixels(Devignetted& seen, Mosaic mosaic, const Progress&
         sum += value;
       }
       const float here = seen.light.at(y, x);
-      const float noise = kHotMargin / std::max(seen.share_at(y, x), float(kLeastShare));
+      const float noise = kHotMargin / std::max(seen.share.at(y, x), float(kLeastShare));
       if (here <= 1.35F * high + noise && here >= 0.65F * low - noise) continue;
       replaced[y].emplace_back(x, sum / 8);
     }
@@ -258,17 +262,19 @@ void set_neighbors(const LensGrid& grid, double turn, ViewGeometry& g) {
 ViewGeometry geometry_of(const LensGrid& grid, const DecodeOptions& options, int height,
                          int width) {
   ViewGeometry g;
+  if (!(options.step_px >= 0)) throw InvalidInput("the step between views is no length in px");
   g.step_px = options.step_px > 0 ? options.step_px : std::max(1.0, grid.pitch_px / kMostViews);
   const int room = static_cast<int>(grid.pitch_px / g.step_px + 1e-6);
   g.views = options.views > 0 ? options.views : std::max(1, room % 2 == 1 ? room : room - 1);
   if (g.views % 2 == 0) {
     throw InvalidInput(fmt::format("{} views have no center view; ask for an odd number", g.views));
   }
-  if ((g.views - 1) * g.step_px > grid.pitch_px) {
+  const bool is_single = g.views == 1 && options.views == 0;
+  if (is_single || std::max(1, g.views - 1) * g.step_px > grid.pitch_px) {
     throw InvalidInput(
         fmt::format("{} views at a step of {:.3g} px do not fit below lenses of "
                     "{:.2f} px; ask for fewer views or a smaller step",
-                    g.views, g.step_px, grid.pitch_px));
+                    is_single ? 3 : g.views, g.step_px, grid.pitch_px));
   }
   const double border = g.views / 2 * g.step_px + 1;
   g.block = lens_block(grid, height, width, border);
@@ -280,7 +286,7 @@ ViewGeometry geometry_of(const LensGrid& grid, const DecodeOptions& options, int
   const double turn = grid.rotation_degrees * std::numbers::pi / 180;
   g.u = {g.step_px * std::cos(turn), g.step_px * std::sin(turn)};
   g.v = {-g.u.y, g.u.x};
-  set_neighbors(grid, turn, g);
+  set_neighbors(grid, grid.has_columns ? turn + std::numbers::pi / 2 : turn, g);
   return g;
 }
 
@@ -296,8 +302,10 @@ class Sampler {
         grid_(grid),
         geometry_(geometry),
         developer_(developer),
-        samples_({geometry.views, geometry.views}, geometry.block.rows, geometry.width, channels_),
-        valid_(samples_.grid(), geometry.block.rows, geometry.width) {
+        samples_({geometry.views, geometry.views},
+                 grid.has_columns ? geometry.width : geometry.block.rows,
+                 grid.has_columns ? geometry.block.rows : geometry.width, channels_),
+        valid_(samples_.grid(), samples_.height(), samples_.width()) {
     for (int k = 0; k < 4; ++k) colors_[k] = color_at(mosaic, k / 2, k % 2);
   }
 
@@ -416,22 +424,24 @@ class Sampler {
   void write_row(ViewIndex view, int row, const Line& line) {
     const int channels = channels_;
     const int lenses = static_cast<int>(line.centers.size());
-    std::uint16_t* out = samples_.view(view).row(row);
-    std::uint8_t* valid = valid_.view(view).row(row);
+    const auto samples = samples_.view(view);
+    const auto is_valid = valid_.view(view);
     for (int x = 0; x < geometry_.width; ++x) {
+      const int at_y = grid_.has_columns ? x : row, at_x = grid_.has_columns ? row : x;
+      std::uint8_t& valid = is_valid.at(at_y, at_x);
       const auto& [lens, is_on_lens, weights] = line.places[x];
       float light[3] = {};
       if (is_on_lens) {
         std::copy_n(&line.light[static_cast<std::size_t>(lens) * channels], channels, light);
-        valid[x] = line.valid[lens];
+        valid = line.valid[lens];
       } else {
         for (int k = 0; k < 6; ++k) {
           const std::size_t at = std::clamp(lens + k - 2, 0, lenses - 1);
           for (int c = 0; c < channels; ++c) light[c] += weights[k] * line.light[at * channels + c];
         }
-        valid[x] = line.valid[lens] && line.valid[std::min(lens + 1, lenses - 1)];
+        valid = line.valid[lens] && line.valid[std::min(lens + 1, lenses - 1)];
       }
-      developer_.develop(light, out + static_cast<std::ptrdiff_t>(x) * channels);
+      developer_.develop(light, &samples.at(at_y, at_x));
     }
   }
 
@@ -480,6 +490,30 @@ void require_same(const RawPicture& raw, const RawPicture& other, const char* wh
   }
 }
 
+/// Compares the lenses of the white picture with those that the raw picture itself shows. Throws
+/// InvalidInput if these are another lattice.
+void check_white(const PlenopticPictures& pictures, LensGrid& grid, const Progress& progress) {
+  const Image<float> raw = evened(pictures.raw, pictures.dark, progress.part(0, 0.1));
+  grid.raw_off_px = distance_from_lenses(raw, grid, progress.part(0.1, 1));
+  if (grid.raw_off_px < kWorstOff * grid.pitch_px) return;
+  LensGrid own;
+  try {
+    own = fit_lens_grid(raw, progress.part(1, 1), LensLight::Scene);
+  } catch (const InvalidInput&) {
+    return;  // It shows none.
+  }
+  if (own.lattice == grid.lattice && std::abs(own.pitch_px / grid.pitch_px - 1) < 0.005 &&
+      std::abs(own.rotation_degrees - grid.rotation_degrees) < 0.25) {
+    return;
+  }
+  throw InvalidInput(fmt::format(
+      "the white picture {} is of another camera or zoom: its lenses are {} and {:.2f} px apart, "
+      "turned by {:.2f}°, those of the raw picture {} are {} and {:.2f} px apart, turned by "
+      "{:.2f}°; use one of this camera",
+      pictures.white->name, lattice_name(grid.lattice), grid.pitch_px, grid.rotation_degrees,
+      pictures.raw.name, lattice_name(own.lattice), own.pitch_px, own.rotation_degrees));
+}
+
 /// Says so if the lenses stand otherwise than the optics tell. The main lens spreads them a little.
 void check_pitch(const RawFacts& facts, Decoded& decoded) {
   constexpr double kSpread = 0.1;
@@ -488,6 +522,29 @@ void check_pitch(const RawFacts& facts, Decoded& decoded) {
   if (std::abs(decoded.grid.pitch_px / expected - 1) < kSpread) return;
   decoded.warnings.push_back(
       fmt::format(finding_text("plenoptic.pitch"), decoded.grid.pitch_px, expected));
+}
+
+/// Tells what is wrong with the white picture's exposure.
+void check_exposure(const RawPicture& white, const Levels& levels, Decoded& decoded) {
+  const double saturated = exposure_of(white).saturated;
+  if (saturated > kMostSaturated) {
+    decoded.warnings.push_back(
+        fmt::format(finding_text("plenoptic.white_saturated"), 100 * saturated));
+  }
+  const double level = levels[white.mosaic == Mosaic::Gray ? 0 : 1];
+  if (level < kDarkWhite) {
+    decoded.warnings.push_back(fmt::format(finding_text("plenoptic.white_dark"), 100 * level));
+  }
+}
+
+/// Colors of the camera; if it says nothing of its white balance, that of the white picture.
+RawColors balanced(const RawPicture& raw, const Levels& levels, Decoded& decoded) {
+  RawColors colors = raw.colors;
+  if (colors.is_balanced || raw.mosaic == Mosaic::Gray) return colors;
+  for (int c = 0; c < 3; ++c) colors.balance[c] = levels[1] / levels[c];
+  decoded.warnings.push_back(
+      fmt::format(finding_text("plenoptic.neutral"), colors.balance[0], colors.balance[2]));
+  return colors;
 }
 
 void drop_unneeded_mask(ViewStack<std::uint8_t>& valid, Decoded& decoded) {
@@ -516,8 +573,16 @@ void require_matching(const PlenopticPictures& pictures) {
 LensGrid find_lenses(const PlenopticPictures& pictures, const Progress& progress) {
   require_matching(pictures);
   const RawPicture& shown = pictures.white ? *pictures.white : pictures.raw;
-  return fit_lens_grid(evened(shown, pictures.dark, progress.part(0, 0.2)), progress.part(0.2, 1),
-                       pictures.white ? LensLight::Even : LensLight::Scene);
+  LensGrid grid;
+  try {
+    grid =
+        fit_lens_grid(evened(shown, pictures.dark, progress.part(0, 0.2)), progress.part(0.2, 0.8),
+                      pictures.white ? LensLight::Even : LensLight::Scene);
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(shown.name + ": " + error.what());
+  }
+  if (pictures.white) check_white(pictures, grid, progress.part(0.8, 1));
+  return grid;
 }
 
 Decoded decode(const PlenopticPictures& pictures, const LensGrid& grid,
@@ -527,6 +592,13 @@ Decoded decode(const PlenopticPictures& pictures, const LensGrid& grid,
   Decoded decoded;
   decoded.grid = grid;
   if (!pictures.white) decoded.warnings.emplace_back(finding_text("plenoptic.no_white"));
+  if (options.is_linear && raw.colors.gamma == 1) {
+    decoded.warnings.push_back(fmt::format(finding_text("option.ignored"), "linear",
+                                           "a picture that is not gamma-encoded"));
+  }
+  if (grid.raw_off_px > kWorstOff * grid.pitch_px) {
+    decoded.warnings.push_back(fmt::format(finding_text("plenoptic.white_off"), grid.raw_off_px));
+  }
   check_pitch(raw.facts, decoded);
   const ViewGeometry geometry =
       geometry_of(grid, options, raw.samples.height(), raw.samples.width());
@@ -534,12 +606,19 @@ Decoded decode(const PlenopticPictures& pictures, const LensGrid& grid,
   decoded.first_x =
       static_cast<int>(std::lround(geometry.block.first_column / geometry.column_step));
   decoded.first_y = geometry.block.first_row;
+  if (grid.has_columns) std::swap(decoded.first_x, decoded.first_y);
   progress.step("removing vignetting");
   Devignetted seen = devignetted(pictures, grid, progress.part(0, 0.2));
-  decoded.hot_pixels = replace_hot_pixels(seen, raw.mosaic, progress.part(0.2, 0.4));
+  RawColors colors = raw.colors;
+  if (pictures.white) {
+    check_exposure(*pictures.white, seen.levels, decoded);
+    colors = balanced(raw, seen.levels, decoded);
+    // Without it, texture within the edges of lenses looks the same.
+    decoded.hot_pixels = replace_hot_pixels(seen, raw.mosaic, progress.part(0.2, 0.4));
+  }
   progress.check();
   progress.step("sampling views");
-  const Developer developer(raw.colors, raw.mosaic == Mosaic::Gray ? 1 : 3, options.is_linear);
+  const Developer developer(colors, raw.mosaic == Mosaic::Gray ? 1 : 3, options.is_linear);
   Sampler sampler(seen, raw.mosaic, grid, geometry, developer);
   sampler.run(progress.part(0.4, 1));
   ViewStack<std::uint8_t> valid = sampler.valid();

@@ -6,11 +6,13 @@
 #include "engine/core/finding.h"
 #include "engine/core/text.h"
 #include "engine/io/base/files.h"
+#include "engine/io/base/sample_range.h"
 #include "engine/io/formats/write_scene.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -50,6 +52,25 @@ void take_mosaic(RawPicture& picture, const std::optional<Mosaic>& mosaic) {
   if (mosaic && picture.mosaic == Mosaic::Gray) picture.mosaic = *mosaic;
 }
 
+/// Files of 16 bits may hold samples of 8 to 14: the largest of all pictures tells.
+void settle_bits(FoundPictures& found) {
+  constexpr int k16Bits = 65535, k14Bits = 16383, kMostOf13Bits = 9000;
+  auto& [raw, white, dark] = found.pictures;
+  int largest = 1;
+  std::vector<RawPicture*> words;
+  for (RawPicture* picture : {&raw, white ? &*white : nullptr, dark ? &*dark : nullptr}) {
+    if (!picture || picture->black != 0 || picture->white != k16Bits) continue;
+    words.push_back(picture);
+    largest = std::max<int>(largest, *std::ranges::max_element(picture->samples));
+  }
+  const bool is_of_14_bits = largest > kMostOf13Bits && largest <= k14Bits;
+  const int full = is_of_14_bits ? k14Bits : io::full_scale(largest);
+  if (words.empty() || full == k16Bits) return;
+  for (RawPicture* picture : words) picture->white = full;
+  found.notes.push_back(
+      fmt::format(finding_text("plenoptic.bits"), std::bit_width(static_cast<unsigned>(full))));
+}
+
 /// Facts of the optics where the camera itself says nothing.
 void add_facts(RawFacts& facts, const RawFacts& optics) {
   if (facts.model.empty()) facts.model = optics.model;
@@ -81,17 +102,38 @@ void find_dark(const PictureFiles& files, FoundPictures& found) {
   found.notes.push_back(fmt::format(finding_text("plenoptic.dark"), found.pictures.dark->name));
 }
 
+/// Throws if a picture is given twice.
+void require_different(const PlenopticPictures& pictures) {
+  const auto check = [](const RawPicture& other, const char* what, const RawPicture& picture) {
+    if (std::ranges::equal(other.samples, picture.samples)) {
+      throw InvalidInput(fmt::format("the {} picture {} is the same picture as {}", what,
+                                     other.name, picture.name));
+    }
+  };
+  const auto& [raw, white, dark] = pictures;
+  if (white) check(*white, "white", raw);
+  if (dark) check(*dark, "dark", raw);
+  if (white && dark) check(*dark, "dark", *white);
+}
+
 }  // namespace
 
 FoundPictures read_pictures(const PictureFiles& files) {
   FoundPictures found;
   RawFile file = read_raw(files.raw);
   found.pictures.raw = std::move(file.raw);
+  if (files.mosaic.value_or(Mosaic::Gray) != Mosaic::Gray &&
+      found.pictures.raw.mosaic != Mosaic::Gray) {
+    found.notes.push_back(fmt::format(finding_text("option.ignored"), "mosaic",
+                                      "a picture whose camera tells its colors"));
+  }
   take_mosaic(found.pictures.raw, files.mosaic);
   if (!files.camera.empty()) add_facts(found.pictures.raw.facts, read_optics(files.camera));
   find_white(files, std::move(file.white), found);
   find_dark(files, found);
   require_matching(found.pictures);
+  require_different(found.pictures);
+  settle_bits(found);
   return found;
 }
 
@@ -126,11 +168,8 @@ constexpr const char* kDecodedFrom = "decoded from ";
 std::string origin_text(const Decoded& decoded, const RawPicture& raw) {
   const LensGrid& grid = decoded.grid;
   std::string text = fmt::format(
-      "{}{}: {} lenses of {:.2f} px, turned by {:.3f}°, views {:.3g} px apart, {} "
-      "samples",
-      kDecodedFrom, raw.name, grid.lattice == LensLattice::Hexagonal ? "hexagonal" : "square",
-      grid.pitch_px, grid.rotation_degrees, decoded.step_px,
-      decoded.is_gamma_encoded ? "gamma-encoded" : "linear");
+      "{}{}: {} lenses of {:.2f} px, turned by {:.3f}°, views {:.3g} px apart", kDecodedFrom,
+      raw.name, lattice_name(grid.lattice), grid.pitch_px, grid.rotation_degrees, decoded.step_px);
   const auto facts = raw.facts.table();
   if (facts.empty()) return text;
   return text + "; " +
@@ -146,6 +185,8 @@ Scene scene_of(const Decoded& decoded, const FoundPictures& found) {
   scene.convention.format = origin_text(decoded, found.pictures.raw);
   scene.convention.order = "canonical order";
   scene.convention.order_check = "a pixel right of a lens's center sees from the right";
+  scene.convention.sign = "checked";
+  scene.convention.sign_check = "exact by construction";
   scene.convention.samples = decoded.is_gamma_encoded ? "uint16, gamma-encoded" : "uint16, linear";
   scene.convention.warnings = found.notes;
   std::ranges::copy(decoded.warnings, std::back_inserter(scene.convention.warnings));
@@ -172,6 +213,8 @@ void write_decoded(const fs::path& path, const Decoded& decoded, const FoundPict
   const Scene scene = scene_of(decoded, found);
   io::ArchiveForm form;
   form.origin = scene.convention.format;
+  form.samples = scene.convention.samples;
+  form.sign = scene.convention.sign_check;
   io::write_archive(path, scene, progress, form);
 }
 

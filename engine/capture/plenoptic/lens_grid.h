@@ -11,23 +11,30 @@
 namespace episcope::capture {
 
 enum class LensLattice { Square, Hexagonal };
+[[nodiscard]] inline const char* lattice_name(LensLattice lattice) {
+  return lattice == LensLattice::Hexagonal ? "hexagonal" : "square";
+}
 
 /// Where the lenses of an array stand on the sensor. Lens (i, j) stands at i·a + j·b from the
 /// first, bent by a polynomial in i and j: rotation, pitch, perspective and radial distortion.
 /// `a` points to the right along a row of lenses; `b` to the next row below, for a hexagonal
-/// array half a pitch further to the right.
+/// array half a pitch further to the right. A hexagonal array whose straight rows stand upright is
+/// the transposed one: `a` points down along a column, `b` to the next column on the right.
 struct LensGrid {
   LensLattice lattice = LensLattice::Square;
-  int degree = 1;  ///< Of the polynomial.
+  bool has_columns = false;  ///< Rows of the array stand upright on the sensor.
+  int degree = 1;            ///< Of the polynomial.
   /// Coefficients of x and y: of i^p·j^q, p + q ≤ degree, i and j divided by `scale`.
   std::vector<PlanePoint> terms;
   double scale = 1;
   double pitch_px = 0;          ///< |a| at the center of the picture,
   double row_distance_px = 0;   ///< and the distance of two rows.
-  double rotation_degrees = 0;  ///< Of a against the rows of the sensor, clockwise as seen.
+  double rotation_degrees = 0;  ///< Of a against rows (columns) of the sensor, clockwise as seen.
   double residual_px = 0;       ///< Root mean square distance of measured centers from the fit,
   std::size_t lenses = 0;       ///< of so many lenses,
   std::size_t measured = 0;     ///< of so many that were measured; the others do not fit.
+
+  double raw_off_px = 0;  ///< Distance of the raw picture's lenses, if this is a white picture's.
 
   /// Center of a lens in px; fractions of i and j lie between lenses.
   [[nodiscard]] PlanePoint center(double i, double j) const;
@@ -46,6 +53,11 @@ enum class LensLight {
 /// Throws InvalidInput for a picture without an array of lenses; Cancelled.
 [[nodiscard]] LensGrid fit_lens_grid(const Image<float>& picture, const Progress& progress,
                                      LensLight light = LensLight::Even);
+
+/// Distance in px of the lenses that a raw picture itself shows by its shading from those of a
+/// grid; three quarters are farther away, as parts of a scene may be dark. Throws Cancelled.
+[[nodiscard]] double distance_from_lenses(const Image<float>& picture, const LensGrid& grid,
+                                          const Progress& progress);
 
 /// Lenses of a grid whose centers lie within a picture, at least `border` px from its edges: the
 /// largest upright block. Column c of row j is lens i = c − shift(j).

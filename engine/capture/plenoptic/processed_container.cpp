@@ -203,21 +203,28 @@ Scene scene_of(const ProcessedContainer& container) {
   return scene;
 }
 
-void write_processed(const fs::path& folder, const ProcessedContainer& container,
-                     const Progress& progress) {
+std::vector<std::string> write_processed(const fs::path& folder,
+                                         const ProcessedContainer& container,
+                                         const Progress& progress) {
   io::AtomicFolder target(folder);
+  std::vector<std::string> files;
+  const auto place = [&](const std::string& name) {
+    files.push_back((folder / name).string());
+    return target.temporary() / name;
+  };
   for (std::size_t k = 0; k < container.pictures.size(); ++k) {
     progress.check();
     const auto& [lambda, encoded] = container.pictures[k];
     const std::string focus = lambda ? fmt::format("_lambda_{:g}", *lambda) : std::string();
-    io::write_atomically(target.temporary() / fmt::format("picture_{:02}{}{}", k, focus,
-                                                          is_png(encoded) ? ".png" : ".jpg"),
-                         encoded);
+    io::write_atomically(
+        place(fmt::format("picture_{:02}{}{}", k, focus, is_png(encoded) ? ".png" : ".jpg")),
+        encoded);
   }
   for (const ProcessedMap& map : container.maps) {
-    io::write_pfm(target.temporary() / (map.name + ".pfm"), map.values.view());
+    io::write_pfm(place(map.name + ".pfm"), map.values.view());
   }
   target.commit();
+  return files;
 }
 
 }  // namespace episcope::capture

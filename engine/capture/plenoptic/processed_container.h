@@ -44,8 +44,10 @@ struct ProcessedContainer {
 /// least to its greatest value. A note tells what the container holds. Throws IoError.
 [[nodiscard]] Scene scene_of(const ProcessedContainer& container);
 
-/// Writes pictures as they are and maps as PFM into a new folder. Throws IoError, Cancelled.
-void write_processed(const std::filesystem::path& folder, const ProcessedContainer& container,
-                     const Progress& progress);
+/// Writes pictures as they are and maps as PFM into a new folder; returns the files. Throws
+/// IoError, Cancelled.
+std::vector<std::string> write_processed(const std::filesystem::path& folder,
+                                         const ProcessedContainer& container,
+                                         const Progress& progress);
 
 }  // namespace episcope::capture

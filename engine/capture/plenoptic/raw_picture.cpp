@@ -116,6 +116,7 @@ RawColors colors_of(const Metadata& json) {
   RawColors colors;
   const Metadata* gains = at(json, {"image", "color", "whiteBalanceGain"});
   if (!gains) gains = at(json, {"algorithms", "awb", "computed", "gain"});
+  colors.is_balanced = gains != nullptr;
   const char* keys[] = {"r", "gr", "b"};
   for (int c = 0; gains && c < 3; ++c) {
     const double gain = number_at(*gains, {keys[c]}).value_or(1);
@@ -141,8 +142,26 @@ Metadata parse_metadata(const std::string& text, const char* what) {
   try {
     return io::parse_json<Metadata>(text);
   } catch (const Metadata::exception&) {
-    throw InvalidInput(fmt::format("the {} of this picture are no JSON", what));
+    throw InvalidInput(fmt::format("the {} of this picture cannot be read as JSON", what));
   }
+}
+
+/// What the camera says of the picture. Calibration data wrap it, with the private metadata.
+Metadata frame_of(const std::string& metadata, const std::string& private_metadata) {
+  Metadata json = parse_metadata(metadata, "metadata");
+  Metadata hidden;
+  if (!private_metadata.empty()) hidden = parse_metadata(private_metadata, "private metadata");
+  if (const Metadata* frame = at(json, {"master", "picture", "frameArray", "frame"});
+      frame && !at(json, {"image"})) {
+    if (const Metadata* part = at(*frame, {"privateMetadata"})) hidden = *part;
+    if (const Metadata* part = at(*frame, {"metadata"})) json = Metadata(*part);
+  }
+  const std::string serial = text_at(hidden, {"camera", "serialNumber"});
+  if (serial.empty() || !json.is_object()) return json;
+  Metadata& camera = json["camera"];
+  if (!camera.is_object()) camera = Metadata::object();
+  camera["serialNumber"] = serial;
+  return json;
 }
 
 std::vector<std::uint8_t> bytes_of(const fs::path& path) {
@@ -153,9 +172,9 @@ std::vector<std::uint8_t> bytes_of(const fs::path& path) {
 
 /// The JSON beside a bare .raw.
 fs::path metadata_beside(const fs::path& path) {
-  for (const char* suffix : {".txt", ".TXT", ".json", ".JSON"}) {
+  for (const char* end : {".txt", ".TXT", ".json", ".JSON", "_metadata.json"}) {
     fs::path beside = path;
-    beside.replace_extension(suffix);
+    beside.replace_filename(path.stem().string() + end);
     std::error_code error;
     if (fs::is_regular_file(beside, error)) return beside;
   }
@@ -312,6 +331,16 @@ std::vector<std::pair<std::string, std::string>> RawFacts::table() const {
   return rows;
 }
 
+WhiteExposure exposure_of(const RawPicture& picture) {
+  std::vector<std::uint16_t> samples(picture.samples.begin(), picture.samples.end());
+  const auto level = samples.begin() + static_cast<std::ptrdiff_t>(samples.size() * 9 / 10);
+  std::ranges::nth_element(samples, level);
+  const auto saturated =
+      std::ranges::count_if(samples, [&](std::uint16_t sample) { return sample >= picture.white; });
+  return {(*level - picture.black) / (picture.white - picture.black),
+          static_cast<double>(saturated) / static_cast<double>(samples.size())};
+}
+
 Image<std::uint16_t> unpack(ByteView bytes, Packing packing, int height, int width) {
   const std::size_t count = static_cast<std::size_t>(height) * width;
   const std::size_t needed = packed_size(packing, count);
@@ -361,16 +390,11 @@ std::vector<std::uint8_t> pack(const Image<std::uint16_t>& samples, Packing pack
 
 RawPicture raw_from_json(ByteView samples, const std::string& metadata,
                          const std::string& private_metadata) {
-  const Metadata json = parse_metadata(metadata, "metadata");
+  const Metadata json = frame_of(metadata, private_metadata);
   const Metadata& details = details_of(json);
   const Packing packing = packing_of(details);
   RawPicture raw;
   raw.facts = facts_of(json);
-  if (!private_metadata.empty()) {
-    const Metadata hidden = parse_metadata(private_metadata, "private metadata");
-    const std::string serial = text_at(hidden, {"camera", "serialNumber"});
-    if (!serial.empty()) raw.facts.serial = serial;
-  }
   raw.mosaic = mosaic_of(details);
   raw.colors = colors_of(json);
   raw.black = number_at(details, {"pixelFormat", "black", "gr"}).value_or(0);
@@ -389,7 +413,7 @@ bool holds_raw(const LfpContainer& container) {
 }
 
 RawFacts facts_from_json(const std::string& metadata) {
-  return facts_of(parse_metadata(metadata, "metadata"));
+  return facts_of(frame_of(metadata, {}));
 }
 
 RawFile read_raw(const fs::path& path) {
@@ -424,6 +448,16 @@ std::string f01_metadata(const RawPicture& raw) {
   json["image"]["color"] = {{"ccmRgbToSrgbArray", raw.colors.to_srgb},
                             {"gamma", raw.colors.gamma},
                             {"whiteBalanceGain", gains(raw.colors)}};
+  return io::json_text(json, 2);
+}
+
+std::string calibration_metadata(const RawPicture& raw) {
+  Metadata frame;
+  frame["metadata"] = io::parse_json<Metadata>(f01_metadata(raw));
+  frame["privateMetadata"]["camera"]["serialNumber"] = raw.facts.serial;
+  frame["metadata"]["camera"].erase("serialNumber");
+  Metadata json;
+  json["master"]["picture"]["frameArray"] = {{{"frame", std::move(frame)}}};
   return io::json_text(json, 2);
 }
 

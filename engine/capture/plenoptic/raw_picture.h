@@ -52,7 +52,8 @@ struct RawColors {
   std::array<double, 3> balance{1, 1, 1};  ///< Gains of red, green, blue.
   /// Camera to linear sRGB, row by row; out = M·in.
   std::array<double, 9> to_srgb{1, 0, 0, 0, 1, 0, 0, 0, 1};
-  double gamma = 1;  ///< Exponent: shown = linear^gamma.
+  double gamma = 1;          ///< Exponent: shown = linear^gamma.
+  bool is_balanced = false;  ///< The camera told the gains.
 };
 
 /// A picture as the sensor saw it.
@@ -66,6 +67,17 @@ struct RawPicture {
   std::string name{};    ///< Of its file.
   std::string source{};  ///< What opens it again; empty = nothing does.
 };
+
+/// Largest share of saturated samples, and least level, of a white picture that is exposed well.
+inline constexpr double kMostSaturated = 0.01;
+inline constexpr double kDarkWhite = 0.1;
+
+/// How much light a white picture got.
+struct WhiteExposure {
+  double level = 0;      ///< That a tenth of the samples exceeds, from black (0) to white (1).
+  double saturated = 0;  ///< Share of the samples.
+};
+[[nodiscard]] WhiteExposure exposure_of(const RawPicture& picture);
 
 struct RawFile {
   RawPicture raw;
@@ -89,7 +101,8 @@ struct RawFile {
 [[nodiscard]] Image<std::uint16_t> unpack(ByteView bytes, Packing packing, int height, int width);
 [[nodiscard]] std::vector<std::uint8_t> pack(const Image<std::uint16_t>& samples, Packing packing);
 
-/// A raw picture out of the bytes of its samples and the JSON of the camera, of either generation.
+/// A raw picture out of the bytes of its samples and the JSON of the camera, of either generation
+/// or of calibration data, which wrap it (master.picture.frameArray[0].frame).
 /// Throws InvalidInput for JSON that lacks what is needed or says what cannot be, or other bytes.
 [[nodiscard]] RawPicture raw_from_json(ByteView samples, const std::string& metadata,
                                        const std::string& private_metadata);
@@ -97,5 +110,7 @@ struct RawFile {
 /// JSON of the first generation (F01) or the second (Illum) that `raw_from_json` reads, for `raw`.
 [[nodiscard]] std::string f01_metadata(const RawPicture& raw);
 [[nodiscard]] std::string illum_metadata(const RawPicture& raw);
+/// JSON beside a white picture of an F01's calibration data.
+[[nodiscard]] std::string calibration_metadata(const RawPicture& raw);
 
 }  // namespace episcope::capture

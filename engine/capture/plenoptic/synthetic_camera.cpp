@@ -287,12 +287,12 @@ void write_f01(const std::filesystem::path& folder, const SyntheticCamera& camer
   RawPicture raw = pictures.raw, white = pictures.white;
   raw.facts = white.facts = facts_of(camera);
   io::write_atomically(folder / "calibration/MOD_0001.RAW", pack(white.samples, camera.packing));
-  io::write_atomically(folder / "calibration/MOD_0001.TXT", f01_metadata(white));
+  io::write_atomically(folder / "calibration/MOD_0001.TXT", calibration_metadata(white));
   // Of another zoom, dark: a choice of it would show.
   white.facts.zoom_step = 300;
   std::ranges::fill(white.samples, static_cast<std::uint16_t>(camera.black));
   io::write_atomically(folder / "calibration/MOD_0000.RAW", pack(white.samples, camera.packing));
-  io::write_atomically(folder / "calibration/MOD_0000.TXT", f01_metadata(white));
+  io::write_atomically(folder / "calibration/MOD_0000.TXT", calibration_metadata(white));
   write_lfp(folder / "raw.lfp", container_of(pack(raw.samples, camera.packing), f01_metadata(raw),
                                              raw.facts.serial, {}));
 }
@@ -355,6 +355,7 @@ SyntheticCamera synthetic_camera(CameraModel model) {
   camera.black = is_f01 ? 168 : 64;
   camera.white = is_f01 ? 4095 : 1023;
   camera.colors.balance = {1.3, 1, 1.26};
+  camera.colors.is_balanced = true;
   camera.colors.to_srgb = {1.6, -0.5, -0.1, -0.2, 1.5, -0.3, 0.05, -0.45, 1.4};
   camera.colors.gamma = 0.41666;
   return camera;

@@ -22,7 +22,8 @@
 #include <limits>
 #include <map>
 #include <memory>
-#include <tuple>
+#include <utility>
+#include <vector>
 
 namespace episcope::capture {
 namespace {
@@ -33,9 +34,11 @@ using FileBytes = std::vector<std::uint8_t>;
 /// Files of calibration data by name in upper case, read when they are needed.
 using CalibrationFiles = std::map<std::string, std::function<FileBytes()>>;
 
-/// "MOD_0007.RAW" of "C:\CALIB\mod_0007.raw" or "unit/MOD_0007.RAW".
+/// "MOD_0007.RAW" of "C:\CALIB\mod_0007.raw", "unit/MOD_0007.RAW" or
+/// "data.C.0__C__CALIB__MOD_0007.RAW", as other programs extract it.
 std::string base_name(const std::string& path) {
   std::string name = path.substr(path.find_last_of("/\\") + 1);
+  if (const auto joint = name.rfind("__"); joint != name.npos) name.erase(0, joint + 2);
   std::ranges::transform(name, name.begin(), [](char c) {
     return static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   });
@@ -106,7 +109,8 @@ CalibrationFiles tar_files(const fs::path& path) {
 }
 
 bool is_storage_name(const fs::path& path) {
-  return lower_case(path.filename().string()).starts_with("data.c.");
+  const std::string name = lower_case(path.filename().string());
+  return name.starts_with("data.c.") && name.find_first_not_of("0123456789", 7) == name.npos;
 }
 
 CalibrationFiles calibration_files(const fs::path& path) {
@@ -116,7 +120,12 @@ CalibrationFiles calibration_files(const fs::path& path) {
     add_stored(path, stored);
     return stored;
   }
-  for (const auto& entry : fs::directory_iterator(path)) {
+  constexpr int kDeepest = 3;  // folders; extracted data lie in unit/T1CALIB
+  for (auto each =
+           fs::recursive_directory_iterator(path, fs::directory_options::skip_permission_denied);
+       each != fs::recursive_directory_iterator(); ++each) {
+    const fs::directory_entry& entry = *each;
+    if (each.depth() >= kDeepest) each.disable_recursion_pending();
     if (!entry.is_regular_file()) continue;
     if (is_storage_name(entry.path())) {
       add_stored(entry.path(), stored);
@@ -145,43 +154,65 @@ std::string steps_text(const RawFacts& facts) {
 struct WhiteCandidate {
   std::string name;  ///< Of its file, within the folder or archive.
   RawFacts facts;
+  std::pair<double, double> rank{};  ///< Differences of zoom and focus.
 };
 
 bool is_other_camera(const RawFacts& a, const RawFacts& b) {
   return !a.serial.empty() && !b.serial.empty() && a.serial != b.serial;
 }
 
-/// Index of the candidate with the nearest zoom and among these the nearest focus, as the raw
-/// picture has them. Leaves out candidates of another serial number. Throws InvalidInput, which
-/// names the serial numbers, if none is left.
-std::size_t nearest_white(const RawFacts& raw, const std::vector<WhiteCandidate>& candidates) {
-  using Rank = std::tuple<double, double>;
+/// Puts candidates first whose zoom is nearest to that of the raw picture, and among these whose
+/// focus is. Leaves out candidates of another serial number. Throws InvalidInput, which names the
+/// serial numbers, if none is left.
+void order_whites(const RawFacts& raw, std::vector<WhiteCandidate>& candidates) {
   const auto distance = [](const std::optional<double>& a, const std::optional<double>& b) {
     return a && b ? std::abs(*a - *b) : std::numeric_limits<double>::max();
   };
-  std::optional<std::size_t> best;
-  Rank least;
   std::string others;
-  for (std::size_t k = 0; k < candidates.size(); ++k) {
-    const RawFacts& facts = candidates[k].facts;
-    if (is_other_camera(raw, facts)) {
-      if (others.find(facts.serial) == others.npos) {
-        others += (others.empty() ? "" : ", ") + facts.serial;
-      }
+  std::erase_if(candidates, [&](WhiteCandidate& each) {
+    const RawFacts& facts = each.facts;
+    each.rank = {distance(raw.zoom_step, facts.zoom_step),
+                 distance(raw.focus_step, facts.focus_step)};
+    if (!is_other_camera(raw, facts)) return false;
+    if (others.find(facts.serial) == others.npos) {
+      others += (others.empty() ? "" : ", ") + facts.serial;
+    }
+    return true;
+  });
+  if (candidates.empty()) {
+    throw InvalidInput(fmt::format(
+        "no white picture is of this camera: the raw picture is of {}, they are of {}; use the "
+        "calibration data of this camera",
+        raw.serial, others));
+  }
+  std::ranges::stable_sort(candidates, {}, &WhiteCandidate::rank);
+}
+
+/// The best exposed of the nearest white pictures that are not dark: cameras take two of each zoom
+/// and focus. `worse`: names of those that were left out for it.
+RawPicture best_exposed(const CalibrationFiles& files, const std::vector<WhiteCandidate>& nearest,
+                        WhiteCandidate& best, std::vector<std::string>& worse) {
+  RawPicture chosen;
+  double most = 0;
+  for (const WhiteCandidate& each : nearest) {
+    if (most > 0 && each.rank != best.rank) break;
+    const FileBytes text = files.at(metadata_name(each.name))();
+    RawPicture picture = raw_from_json(files.at(each.name)(), {text.begin(), text.end()}, {});
+    const auto [level, saturated] = exposure_of(picture);
+    const double quality = level < kDarkWhite ? 0 : saturated > kMostSaturated ? kDarkWhite : level;
+    if (quality <= most) {
+      worse.push_back(each.name);
       continue;
     }
-    const Rank rank(distance(raw.zoom_step, facts.zoom_step),
-                    distance(raw.focus_step, facts.focus_step));
-    if (!best || rank < least) {
-      best = k;
-      least = rank;
-    }
+    if (most > 0) worse.push_back(best.name);
+    best = each;
+    most = quality;
+    chosen = std::move(picture);
   }
-  if (best) return *best;
-  throw InvalidInput(fmt::format(
-      "all {} white pictures are of another camera: the raw picture is of {}, they are of {}; "
-      "use the calibration data of this camera",
-      candidates.size(), raw.serial, others));
+  if (most > 0) return chosen;
+  throw InvalidInput(
+      fmt::format("there is no light in the white pictures ({}); use other calibration data",
+                  joined(worse, ", ")));
 }
 
 ChosenWhite choose(const fs::path& path, const RawPicture& raw) {
@@ -192,18 +223,22 @@ ChosenWhite choose(const fs::path& path, const RawPicture& raw) {
     const auto metadata = files.find(metadata_name(name));
     if (metadata == files.end()) continue;
     const FileBytes text = metadata->second();
-    candidates.push_back({name, facts_from_json({text.begin(), text.end()})});
+    candidates.push_back({name, facts_from_json({text.begin(), text.end()}), {}});
   }
   if (candidates.empty()) {
     throw IoError(path, "there is no white picture here: MOD_nnnn.RAW with its .TXT is expected");
   }
-  const WhiteCandidate& best = candidates[nearest_white(raw.facts, candidates)];
-  const FileBytes text = files.at(metadata_name(best.name))();
-  ChosenWhite chosen;
-  chosen.picture = raw_from_json(files.at(best.name)(), {text.begin(), text.end()}, {});
+  const std::size_t count = candidates.size();
+  order_whites(raw.facts, candidates);
+  WhiteCandidate best;
+  std::vector<std::string> worse;
+  ChosenWhite chosen{best_exposed(files, candidates, best, worse), {}};
   chosen.picture.name = best.name;
-  chosen.reason = fmt::format(finding_text("plenoptic.white_nearest"), best.name,
-                              steps_text(best.facts), candidates.size(), steps_text(raw.facts));
+  const std::string steps = steps_text(best.facts), wanted = steps_text(raw.facts);
+  chosen.reason = worse.empty() ? fmt::format(finding_text("plenoptic.white_nearest"), best.name,
+                                              steps, count, wanted)
+                                : fmt::format(finding_text("plenoptic.white_exposed"), best.name,
+                                              steps, count, wanted, joined(worse, ", "));
   return chosen;
 }
 
@@ -250,7 +285,7 @@ fs::path find_beside(const fs::path& raw, const std::string& kind) {
     if (kind != "white") continue;
     if (name.starts_with("caldata-") && suffix == ".tar") calibration.push_back(entry.path());
     has_pictures = has_pictures || is_storage_name(entry.path()) ||
-                   (name.starts_with("mod_") && suffix == ".raw");
+                   (base_name(name).starts_with("MOD_") && suffix == ".raw");
   }
   for (auto* found : {&named, &plain, &calibration}) {
     if (!found->empty()) return *std::ranges::min_element(*found);

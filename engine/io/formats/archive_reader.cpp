@@ -346,7 +346,11 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
   const Progress reading = progress.part(0, read);
   ViewStack<std::uint8_t> valid = read_valid(file, layout.shape, reading.part(0.55, 0.58));
   if (valid.empty()) valid = read_alpha(file, layout, reading.part(0.58, 0.6));
-  settle_range(samples, options.levels, report);
+  if (const auto stated = file.text("/", kSamples); stated && options.levels.empty()) {
+    report.samples = *stated;
+  } else {
+    settle_range(samples, options.levels, report);
+  }
   progress.step("reading depth");
   ArchiveTruth depth = read_archive_depth(file, samples, options, report, reading.part(0.6, 0.85));
   progress.step("reading labels");
@@ -377,6 +381,11 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
             .expected = std::move(expected),
             .valid = std::move(valid)},
            options, scene, progress.part(read, 1));
+  if (const auto sign = file.text("/", kSign);
+      sign && report.sign.empty() && !report.order_was_chosen) {
+    report.sign = "checked";
+    report.sign_check = *sign;
+  }
   scene.scribbles = std::move(labels.scribbles);
   put_in_order(scene.scribbles, grid, flip_of(report));
   if (report.crop.leaves_out()) {

@@ -329,7 +329,11 @@ void write_archive(const std::filesystem::path& path, const Scene& scene, const 
   AtomicFile target(path, archive_bytes(scene, form.has_disparity) + label_room);
   Hdf5Output file(target);
   write_attributes(file, scene, camera);
-  if (!form.origin.empty()) file.set_text("/", kOrigin, form.origin);
+  const std::pair<const char*, const std::string&> texts[] = {
+      {kOrigin, form.origin}, {kSamples, form.samples}, {kSign, form.sign}};
+  for (const auto& [name, text] : texts) {
+    if (!text.empty()) file.set_text("/", name, text);
+  }
   write_light_field(file, *scene.light_field, progress.part(0, 0.6));
   const std::pair<const char*, const DisparityField*> fields[] = {
       {"", &truth.field}, {"_FOREGROUND", &truth.foreground}, {"_BACKGROUND", &truth.background}};

@@ -17,6 +17,9 @@ struct ArchiveForm {
   LabelFile labels = LabelFile::Usual;
   bool has_disparity = false;  ///< GT_DISPARITY beside GT_DEPTH, px per view step, NaN = not known.
   std::string origin{};  ///< How the light field was made, in a sentence; empty = nothing is said.
+  std::string
+      samples{};       ///< ConventionReport::samples, such as "uint16, linear"; empty = not said.
+  std::string sign{};  ///< Why a nearer point has positive disparity; empty = not known.
 };
 
 /// Writes a scene in the form of the 2013 archive: the light field and its depth to `path`, labels
@@ -47,6 +50,9 @@ inline constexpr const char* kConventionText =
     "(x,y-d) in (v+1,h)";
 /// Attribute of the root: how the light field was made (ArchiveForm::origin).
 inline constexpr const char* kOrigin = "origin";
+/// Attributes of the root: ArchiveForm::samples and ::sign.
+inline constexpr const char* kSamples = "samples";
+inline constexpr const char* kSign = "sign";
 /// Attribute of the root: x and y of the camera of each view, row by row; and their unit.
 inline constexpr const char* kPositions = "camera_positions";
 inline constexpr const char* kPositionUnit = "camera_position_unit";

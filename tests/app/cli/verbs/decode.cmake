@@ -6,6 +6,10 @@ expect("decode" 0 ERR "MOD_0001.RAW .*nearest of 2" OUT "hexagonal lenses: pitch
        ARGS decode f01/raw.lfp --white f01/calibration -o lf.h5)
 expect("what the camera said" 0 OUT "decoded from raw.lfp.*serial A000000001.*zoom step 600"
        ARGS info lf.h5)
+expect("samples and sign are kept" 0 OUT "uint16, gamma-encoded.*sign +checked" ARGS info lf.h5)
+expect("linear" 0 ERR "--mosaic is ignored" OUT "linear samples" ARGS decode f01/raw.lfp --white
+       f01/calibration --linear --mosaic GRBG -o linear.h5)
+expect("linear is kept" 0 OUT "uint16, linear" ARGS info linear.h5)
 expect("again" 1 ERR "--overwrite" ARGS decode f01/raw.lfp -o lf.h5)
 expect("as JSON" 0 ERR "nearest of 2" ARGS decode f01/raw.lfp --white f01/calibration --views 5
        -o five.h5 --json)
@@ -26,8 +30,10 @@ execute_process(COMMAND head -c ${half} "${WORK}/f01/raw.lfp" OUTPUT_FILE "${WOR
 expect("cut off" 1 ERR "cut.lfp: section 4 .*the file is cut off" ARGS decode cut.lfp -o cut.h5)
 expect("white of another camera" 1 ERR "mosaic gray, but the raw picture raw.lfp has bggr" ARGS decode f01/raw.lfp --white
        square/raw_white.png -o other.h5)
-expect("no lenses" 1 ERR "no array of microlenses" ARGS decode square/raw_dark.png --white
-       square/raw_dark.png -o none.h5 -q)
+expect("no lenses" 1 ERR "no array of microlenses" ARGS decode square/raw_dark.png -o none.h5
+       -q)
+expect("white picture twice" 1 ERR "the white picture raw.png is the same picture as raw.png" ARGS
+       decode square/raw.png --white square/raw.png -o none.h5)
 expect("not there" 1 ERR "gone.png" ARGS decode gone.png -o none.h5)
 expect("a sensor too small" 2 ERR "--size is 100x100" ARGS synthesize edge --camera f01 --size 100x100
        -o small)
@@ -48,7 +54,8 @@ execute_process(COMMAND sh -c "z='\\0\\0\\0\\0'; z35=\"$z$z$z$z$z$z$z$z\\0\\0\\0
   WORKING_DIRECTORY "${WORK}")
 expect("a processed container is a picture" 0 OUT "1×1.*note.*depthMap of 2×2 px" ARGS info a-dm.lfp)
 expect("it has no light field" 2 ERR "depthMap of 2×2 px.*new folder" ARGS decode a-dm.lfp -o a.h5)
-expect("its files" 0 OUT "depthMap of 2×2 px" ARGS decode a-dm.lfp -o processed)
+expect("its files" 0 OUT "depthMap of 2×2 px.*processed/depthMap.pfm" ERR "--views is ignored"
+       ARGS decode a-dm.lfp --views 3 -o processed)
 if(NOT EXISTS "${WORK}/processed/depthMap.pfm")
   message(FATAL_ERROR "no depth map was written")
 endif()

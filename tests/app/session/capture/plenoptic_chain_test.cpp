@@ -54,7 +54,7 @@ class PlenopticChainTest : public QObject {
     camera.noise = noise;
     camera.rotation_degrees = degrees;
     camera.pitch_px *= pitch;
-    if (!has_colors) camera.colors = {};
+    if (!has_colors) camera.colors = {.is_balanced = true};
 
     const ChainErrors errors = chain_errors("demo", camera);
 

@@ -5,6 +5,7 @@
 
 #include "tests/test_main.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -60,6 +61,15 @@ Image<float> picture_of(const Array& array) {
   return light;
 }
 
+RawPicture raw_of(const Image<float>& light) {
+  RawPicture raw;
+  raw.samples = Image<std::uint16_t>(light.height(), light.width());
+  std::ranges::transform(light, raw.samples.begin(), [](float value) {
+    return static_cast<std::uint16_t>(std::max(0.0F, 20000 * value));
+  });
+  return raw;
+}
+
 /// Root mean square distance of fitted centers from the nearest true ones.
 double rms_error(const LensGrid& grid, const Array& array) {
   const LensBlock block = lens_block(grid, array.height, array.width, array.pitch);
@@ -89,9 +99,9 @@ double rms_error(const LensGrid& grid, const Array& array) {
   return std::sqrt(sum / count);
 }
 
-QString problem_of(const Image<float>& picture) {
+QString problem_of(const Image<float>& picture, LensLight light = LensLight::Even) {
   try {
-    (void)fit_lens_grid(picture, Progress(1));
+    (void)fit_lens_grid(picture, Progress(2), light);
   } catch (const InvalidInput& error) {
     return QString::fromUtf8(error.what());
   }
@@ -116,6 +126,7 @@ class LensGridTest : public QObject {
     QTest::newRow("bent") << true << 10.02 << 0.2 << 1.5 << 0.01;
     QTest::newRow("square") << false << 12.37 << 0.3 << 0.0 << 0.02;
     QTest::newRow("large") << false << 30.2 << -0.2 << 0.0 << 0.02;
+    QTest::newRow("columns") << true << 10.12 << 30.2 << 0.0 << 0.01;
     QTest::newRow("small") << true << 5.3 << 0.5 << 0.0 << 0.01;
   }
   void centers_areFoundTo005Px() {
@@ -131,7 +142,8 @@ class LensGridTest : public QObject {
     QCOMPARE(grid.lattice, is_hexagonal ? LensLattice::Hexagonal : LensLattice::Square);
     const double error = rms_error(grid, array);
     QVERIFY2(error <= 0.05, qPrintable(QString("off by %1 px rms").arg(error)));
-    QVERIFY(std::abs(grid.rotation_degrees - degrees) < 0.02);
+    QCOMPARE(grid.has_columns, degrees > 15);
+    QVERIFY(std::abs(grid.rotation_degrees - (grid.has_columns ? degrees - 30 : degrees)) < 0.02);
   }
 
   // Texture disturbs single lenses; many around each tell where it is.
@@ -154,13 +166,7 @@ class LensGridTest : public QObject {
   }
 
   void pitchOfTheOptics_isChecked() {
-    PlenopticPictures pictures;
-    const Array array;
-    const Image<float> light = picture_of({.noise = 0});
-    pictures.raw.samples = Image<std::uint16_t>(array.height, array.width);
-    for (std::size_t i = 0; i < light.size(); ++i) {
-      pictures.raw.samples.data()[i] = static_cast<std::uint16_t>(20000 * light.data()[i]);
-    }
+    PlenopticPictures pictures{raw_of(picture_of({.noise = 0})), {}, {}};
     pictures.white = pictures.raw;
     pictures.raw.facts.pixel_pitch_um = 1.4;
     for (const double lens_pitch_um : {14.0, 20.0}) {
@@ -182,6 +188,7 @@ class LensGridTest : public QObject {
     std::mt19937 random(3);
     for (float& value : noise) value = static_cast<float>(random() % 1000) / 1000;
     QVERIFY(problem_of(noise).contains("no array of microlenses was found"));
+    QVERIFY(problem_of(noise, LensLight::Scene).contains("no array of microlenses was found"));
     QVERIFY(problem_of(Image<float>(300, 400, 1, 0.5F)).contains("it is even"));
     QVERIFY(problem_of(Image<float>(20, 400)).contains("only 400×20 px"));
     Image<float> stripes(300, 400);
@@ -191,15 +198,37 @@ class LensGridTest : public QObject {
     QVERIFY2(problem_of(stripes).contains("no array"), qPrintable(problem_of(stripes)));
   }
 
+  void whitePictureOfAnotherCamera_isRefused_data() {
+    QTest::addColumn<double>("pitch");
+    QTest::addColumn<double>("degrees");
+    QTest::addColumn<bool>("is_hexagonal");
+    QTest::addColumn<QString>("told");
+    QTest::newRow("the same") << 10.1 << 0.4 << true << "";
+    QTest::newRow("pitch") << 10.2 << 0.4 << true << "those of the raw picture raw are hexagonal";
+    QTest::newRow("rotation") << 10.1 << -0.3 << true << "of another camera or zoom";
+    QTest::newRow("lattice") << 10.1 << 0.4 << false << "its lenses are square";
+  }
+  void whitePictureOfAnotherCamera_isRefused() {
+    QFETCH(double, pitch);
+    QFETCH(double, degrees);
+    QFETCH(bool, is_hexagonal);
+    QFETCH(QString, told);
+    PlenopticPictures pictures{raw_of(picture_of({.width = 700, .height = 600})), {}, {}};
+    pictures.white = raw_of(picture_of({is_hexagonal, pitch, degrees, 0, 0.01, 700, 600}));
+    pictures.raw.name = "raw";
+    QString found;
+    try {
+      const LensGrid grid = find_lenses(pictures, Progress(2));
+      QVERIFY(decode(pictures, grid, {}, Progress(2)).warnings.empty());
+    } catch (const InvalidInput& error) {
+      found = QString::fromUtf8(error.what());
+    }
+    QVERIFY2(told.isEmpty() ? found.isEmpty() : found.contains(told), qPrintable(found));
+  }
+
   // An even area decodes to even views, whatever the lenses shade and however pixels err.
   void evenArea_decodesToEvenViews() {
-    const Array array;
-    const Image<float> light = picture_of({.noise = 0});
-    PlenopticPictures pictures;
-    pictures.raw.samples = Image<std::uint16_t>(array.height, array.width);
-    for (std::size_t i = 0; i < light.size(); ++i) {
-      pictures.raw.samples.data()[i] = static_cast<std::uint16_t>(20000 * light.data()[i]);
-    }
+    PlenopticPictures pictures{raw_of(picture_of({.noise = 0})), {}, {}};
     pictures.white = pictures.raw;
     for (auto& sample : pictures.raw.samples) sample = static_cast<std::uint16_t>(sample * 2);
     pictures.raw.samples.at(180, 210) = 65535;  // hot
@@ -228,22 +257,86 @@ class LensGridTest : public QObject {
     }
   }
 
-  void tooManyViews_areRefused() {
-    const Array array;
-    PlenopticPictures pictures;
-    pictures.raw.samples = Image<std::uint16_t>(array.height, array.width);
-    const Image<float> light = picture_of(array);
-    for (std::size_t i = 0; i < light.size(); ++i) {
-      pictures.raw.samples.data()[i] =
-          static_cast<std::uint16_t>(std::max(0.0F, 20000 * light.data()[i]));
-    }
+  // Views of an array with upright columns stand upright, and are where they look from.
+  void columns_decodeToUprightViews() {
+    const Array array{.degrees = 30.2, .noise = 0};
+    PlenopticPictures pictures{raw_of(picture_of(array)), {}, {}};
+    pictures.white = pictures.raw;
     const LensGrid grid = find_lenses(pictures, Progress(2));
-    try {
-      (void)decode(pictures, grid, {.views = 21}, Progress(2));
-      QFAIL("21 views were made");
-    } catch (const InvalidInput& error) {
-      QVERIFY(QString::fromUtf8(error.what()).contains("ask for fewer views"));
+    Image<std::uint16_t>& samples = pictures.raw.samples;
+    for (int y = 0; y < array.height; ++y) {
+      for (int x = 0; x < array.width; ++x) samples.at(y, x) += static_cast<std::uint16_t>(20 * x);
     }
+    const Decoded decoded = decode(pictures, grid, {}, Progress(2));
+    const LightField& field = *decoded.light_field;
+    const Image<float> center = field.view_as_float(field.center());
+    const int width = center.width(), height = center.height(), middle = field.center().u;
+    QVERIFY2(width > height, qPrintable(QString("%1×%2").arg(width).arg(height)));
+    QVERIFY(center.at(height / 2, width - 4) > center.at(height / 2, 3) + 0.1F);
+    QVERIFY(std::abs(center.at(height - 4, width / 2) - center.at(3, width / 2)) < 0.02F);
+    const auto at = [&](int v, int u) {
+      return field.view_as_float({v, u}).at(height / 2, width / 2);
+    };
+    QVERIFY(at(middle, middle + 3) > at(middle, middle - 3) + 1e-3F);
+    QVERIFY(std::abs(at(middle + 3, middle) - at(middle - 3, middle)) < 1e-3F);
+  }
+
+  void colorsOfABareSensor_areMadeNeutral() {
+    PlenopticPictures pictures{raw_of(picture_of({.noise = 0})), {}, {}};
+    pictures.raw.mosaic = Mosaic::Rggb;
+    for (int y = 0; y < pictures.raw.samples.height(); y += 2) {
+      for (int x = 0; x < pictures.raw.samples.width(); x += 2) {
+        pictures.raw.samples.at(y, x) /= 2;  // red
+      }
+    }
+    pictures.white = pictures.raw;
+    const LensGrid grid = find_lenses(pictures, Progress(2));
+    const Decoded decoded = decode(pictures, grid, {}, Progress(2));
+    const LightField& field = *decoded.light_field;
+    const Image<float> view = field.view_as_float(field.center());
+    const float red = view.at(10, 10, 0), green = view.at(10, 10, 1);
+    QVERIFY2(std::abs(red / green - 1) < 0.02, qPrintable(QString::number(red / green)));
+    const QString told = QString::fromStdString(decoded.warnings.front());
+    QVERIFY2(told.contains("red times 2.0"), qPrintable(told));
+    pictures.raw.colors.is_balanced = true;
+    QVERIFY(decode(pictures, grid, {}, Progress(2)).warnings.empty());
+  }
+
+  void badlyExposedWhitePicture_isTold() {
+    PlenopticPictures pictures{raw_of(picture_of({})), raw_of(picture_of({})), {}};
+    const LensGrid grid = find_lenses(pictures, Progress(2));
+    const auto told = [&] {
+      const auto warnings = decode(pictures, grid, {}, Progress(2)).warnings;
+      return warnings.empty() ? QString() : QString::fromStdString(warnings.front());
+    };
+    QCOMPARE(told(), QString());
+    for (auto& sample : pictures.white->samples) sample /= 10;
+    QVERIFY2(told().contains("has only 2.6 % of the light"), qPrintable(told()));
+    for (auto& sample : pictures.white->samples) sample = std::min(sample * 80, 65535);
+    QVERIFY2(told().contains("of the white picture is saturated"), qPrintable(told()));
+  }
+
+  // Texture of a scene is no hot pixel, and without a white picture looks like one.
+  void withoutWhitePicture_noPixelIsHot() {
+    PlenopticPictures pictures{raw_of(picture_of({.noise = 0.1})), {}, {}};
+    const LensGrid grid = find_lenses(pictures, Progress(2));
+    QCOMPARE(decode(pictures, grid, {}, Progress(2)).hot_pixels, std::size_t(0));
+  }
+
+  void tooManyViews_areRefused() {
+    const PlenopticPictures pictures{raw_of(picture_of({})), {}, {}};
+    const LensGrid grid = find_lenses(pictures, Progress(2));
+    for (const DecodeOptions& options : {DecodeOptions{.views = 21}, DecodeOptions{.step_px = 7},
+                                         DecodeOptions{.views = 1, .step_px = 100}}) {
+      try {
+        (void)decode(pictures, grid, options, Progress(2));
+        QFAIL("they were made");
+      } catch (const InvalidInput& error) {
+        QVERIFY(QString::fromUtf8(error.what()).contains("ask for fewer views"));
+      }
+    }
+    QVERIFY_THROWS_EXCEPTION(InvalidInput,
+                             decode(pictures, grid, {.step_px = std::nan("")}, Progress(2)));
     QCOMPARE(decode(pictures, grid, {.views = 3}, Progress(2)).warnings.size(), std::size_t{1});
   }
 };

@@ -195,6 +195,17 @@ class RawFilesTest : public QObject {
     }
   }
 
+  // As the camera writes MOD_nnnn.TXT.
+  void metadata_ofCalibrationData_areReadWithinTheirFrame() {
+    const RawPicture f01 = counting(12, Mosaic::Bggr, "A7");
+    const std::string json = calibration_metadata(f01);
+    const RawPicture read = raw_from_json(pack(f01.samples, Packing::Bits12), json, {});
+    QVERIFY(std::ranges::equal(read.samples, f01.samples));
+    QCOMPARE(facts_from_json(json).serial, std::string("A7"));
+    QCOMPARE(*facts_from_json(json).zoom_step, 100.0);
+    QVERIFY(QString::fromStdString(json).contains("privateMetadata"));
+  }
+
   void container_bringsItsWhitePicture() {
     good_container();
     const RawFile file = read_raw(path("good.lfr"));
@@ -252,7 +263,7 @@ class RawFilesTest : public QObject {
                             << "make no picture";
     QTest::newRow("no JSON") << "{"
                              << ""
-                             << "are no JSON";
+                             << "cannot be read as JSON";
     QTest::newRow("no image") << "\"image\""
                               << "\"picture\""
                               << "lack 'image'";
@@ -309,8 +320,11 @@ class RawFilesTest : public QObject {
     const RawPicture raw = counting(10, Mosaic::Grbg);
     write("bare.raw", pack(raw.samples, Packing::Bits10));
     QVERIFY(problem([&] { (void)read_raw(path("bare.raw")); }).contains("with .txt or .json"));
-    write("bare.txt", bytes_of(illum_metadata(raw)));
-    QVERIFY(std::ranges::equal(read_raw(path("bare.raw")).raw.samples, raw.samples));
+    for (const char* name : {"bare_metadata.json", "bare.txt"}) {
+      write(name, bytes_of(illum_metadata(raw)));
+      QVERIFY(std::ranges::equal(read_raw(path("bare.raw")).raw.samples, raw.samples));
+      fs::remove(path(name));
+    }
   }
 
   void colorPicture_isNoRawPicture() {
@@ -333,6 +347,47 @@ class RawFilesTest : public QObject {
     fs::resize_file(path("caldata-A1.tar"), 1800);
     const QString told = problem([&] { (void)read_white(path("caldata-A1.tar"), raw); });
     QVERIFY2(told.contains("tar archive is cut off"), qPrintable(told));
+  }
+
+  // The camera takes two exposures of each zoom and focus; dark ones do not count.
+  void betterExposedWhite_isTaken() {
+    const RawPicture raw = counting(10, Mosaic::Grbg);
+    const auto add = [&](const std::string& stem, double zoom, int divisor) {
+      RawPicture white = raw;
+      white.facts.zoom_step = zoom;
+      for (auto& sample : white.samples) sample = static_cast<std::uint16_t>(sample / divisor);
+      write(stem + ".RAW", pack(white.samples, Packing::Bits10));
+      write(stem + ".TXT", bytes_of(illum_metadata(white)));
+    };
+    const std::string stem = "pairs/unit/T1CALIB/data.C.0__C__T1CALIB__MOD_000";
+    add(stem + "0", 100, 2);
+    add(stem + "1", 100, 1);
+    add(stem + "2", 101, 1);
+    ChosenWhite chosen = read_white(path("pairs"), raw);
+    QCOMPARE(chosen.picture.name, std::string("MOD_0001.RAW"));
+    const QString told = QString::fromStdString(chosen.reason);
+    QVERIFY2(told.contains("nearest of 3") && told.contains("better exposed than MOD_0000.RAW"),
+             qPrintable(told));
+    add(stem + "0", 100, 50);
+    add(stem + "1", 100, 50);
+    QCOMPARE(read_white(path("pairs"), raw).picture.name, std::string("MOD_0002.RAW"));
+    add(stem + "2", 101, 50);
+    const QString dark = problem([&] { (void)read_white(path("pairs"), raw); });
+    QVERIFY2(dark.contains("there is no light in the white pictures"), qPrintable(dark));
+  }
+
+  void fewerBits_fillTheRange() {
+    fs::create_directories(path("bits"));
+    Image<std::uint16_t> samples(64, 80, 1, 700);
+    io::write_png(path("bits/a.png"), samples.view());
+    samples.at(3, 3) = 900;
+    io::write_png(path("bits/white.png"), samples.view());
+    io::write_png(path("bits/dark.png"), Image<std::uint8_t>(64, 80, 1, 3).view());
+    const FoundPictures found = read_pictures({path("bits/a.png")});
+    QCOMPARE(found.pictures.raw.white, 1023.0);
+    QCOMPARE(found.pictures.white->white, 1023.0);
+    QCOMPARE(found.pictures.dark->white, 255.0);
+    QCOMPARE(found.notes.back(), std::string("samples of 10 bits, according to the largest one"));
   }
 
   void storageContainer_holdsWhitePictures() {
@@ -366,15 +421,19 @@ class RawFilesTest : public QObject {
 
   void picturesBeside_areFound() {
     fs::create_directories(path("lab"));
-    const Image<std::uint8_t> even(64, 80, 1, 100);
+    std::uint8_t level = 100;
     for (const char* name : {"lab/a.png", "lab/white.png", "lab/A_dark.png"}) {
-      io::write_png(path(name), even.view());
+      io::write_png(path(name), Image<std::uint8_t>(64, 80, 1, level++).view());
     }
     QCOMPARE(find_beside(path("lab/a.png"), "white"), path("lab/white.png"));
     QCOMPARE(find_beside(path("lab/a.png"), "dark"), path("lab/A_dark.png"));
     const FoundPictures found = read_pictures({path("lab/a.png")});
     QVERIFY(found.pictures.white.has_value() && found.pictures.dark.has_value());
     QCOMPARE(found.notes.size(), std::size_t{2});
+    const QString twice = problem(
+        [&] { (void)read_pictures({.raw = path("lab/a.png"), .dark = path("lab/white.png")}); });
+    QVERIFY2(twice.contains("the dark picture white.png is the same picture as white.png"),
+             qPrintable(twice));
     io::write_png(path("lab/a_white.png"), Image<std::uint8_t>(64, 64).view());
     const QString told = problem([&] { (void)read_pictures({path("lab/a.png")}); });
     QVERIFY2(told.contains("a_white.png has 64×64 px, but the raw picture a.png has 80×64"),
