@@ -34,6 +34,15 @@ struct DecodeRequest {
   JobOptions job;
 };
 
+/// A mosaic in capital or small letters.
+OptionValue<capture::Mosaic> mosaic_value() {
+  OptionValue<capture::Mosaic> mosaic = choice_of<capture::Mosaic>();
+  mosaic.read = [read = mosaic.read](const std::string& option, const std::string& text) {
+    return read(option, lower_case(text));
+  };
+  return mosaic;
+}
+
 bool parse(const VerbArguments& arguments, DecodeRequest& request) {
   Arguments parser(
       "decode",
@@ -54,11 +63,7 @@ bool parse(const VerbArguments& arguments, DecodeRequest& request) {
   parser.option("--camera", request.camera, text_value("FILE"),
                 "Optics of a laboratory camera: [sensor] pixel_size_x, [micro_lens] "
                 "physical_size_s, [main_lens] f1, in mm");
-  OptionValue<capture::Mosaic> mosaic = choice_of<capture::Mosaic>();
-  mosaic.read = [read = mosaic.read](const std::string& option, const std::string& text) {
-    return read(option, lower_case(text));
-  };
-  parser.option("--mosaic", request.mosaic, mosaic,
+  parser.option("--mosaic", request.mosaic, mosaic_value(),
                 "Colors of the first pixels of a picture whose file does not tell (default gray)");
   parser.option("--views", request.options.views, integer_value("N", 1, kMostViews),
                 "Views along each axis, odd (default: as many as a lens has room for)");

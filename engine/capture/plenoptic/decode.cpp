@@ -524,6 +524,20 @@ void check_pitch(const RawFacts& facts, Decoded& decoded) {
       fmt::format(finding_text("plenoptic.pitch"), decoded.grid.pitch_px, expected));
 }
 
+/// What is to be said before decoding. `decoded` has its grid.
+void warn(const PlenopticPictures& pictures, const DecodeOptions& options, Decoded& decoded) {
+  if (!pictures.white) decoded.warnings.emplace_back(finding_text("plenoptic.no_white"));
+  if (options.is_linear && pictures.raw.colors.gamma == 1) {
+    decoded.warnings.push_back(fmt::format(finding_text("option.ignored"), "linear",
+                                           "a picture that is not gamma-encoded"));
+  }
+  const LensGrid& grid = decoded.grid;
+  if (grid.raw_off_px > kWorstOff * grid.pitch_px) {
+    decoded.warnings.push_back(fmt::format(finding_text("plenoptic.white_off"), grid.raw_off_px));
+  }
+  check_pitch(pictures.raw.facts, decoded);
+}
+
 /// Tells what is wrong with the white picture's exposure.
 void check_exposure(const RawPicture& white, const Levels& levels, Decoded& decoded) {
   const double saturated = exposure_of(white).saturated;
@@ -591,15 +605,7 @@ Decoded decode(const PlenopticPictures& pictures, const LensGrid& grid,
   const RawPicture& raw = pictures.raw;
   Decoded decoded;
   decoded.grid = grid;
-  if (!pictures.white) decoded.warnings.emplace_back(finding_text("plenoptic.no_white"));
-  if (options.is_linear && raw.colors.gamma == 1) {
-    decoded.warnings.push_back(fmt::format(finding_text("option.ignored"), "linear",
-                                           "a picture that is not gamma-encoded"));
-  }
-  if (grid.raw_off_px > kWorstOff * grid.pitch_px) {
-    decoded.warnings.push_back(fmt::format(finding_text("plenoptic.white_off"), grid.raw_off_px));
-  }
-  check_pitch(raw.facts, decoded);
+  warn(pictures, options, decoded);
   const ViewGeometry geometry =
       geometry_of(grid, options, raw.samples.height(), raw.samples.width());
   decoded.step_px = geometry.step_px;
