@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <utility>
 
 namespace episcope {
@@ -411,24 +410,37 @@ void AnnotateController::goTo(const DocumentChange& change) {
 namespace {
 
 QString edit_text(EditKind kind) {
-  static const std::map<EditKind, const char*> texts{
-      {EditKind::Paint, QT_TRANSLATE_NOOP("episcope::AnnotateController", "stroke")},
-      {EditKind::Erase, QT_TRANSLATE_NOOP("episcope::AnnotateController", "erasing")},
-      {EditKind::Fill, QT_TRANSLATE_NOOP("episcope::AnnotateController", "fill")},
-      {EditKind::AddLabel, QT_TRANSLATE_NOOP("episcope::AnnotateController", "new label")},
-      {EditKind::RenameLabel, QT_TRANSLATE_NOOP("episcope::AnnotateController", "label name")},
-      {EditKind::RecolorLabel, QT_TRANSLATE_NOOP("episcope::AnnotateController", "label color")},
-      {EditKind::RemoveLabel, QT_TRANSLATE_NOOP("episcope::AnnotateController", "label removal")},
-      {EditKind::Import, QT_TRANSLATE_NOOP("episcope::AnnotateController", "import")},
-      {EditKind::SmoothBoundaries,
-       QT_TRANSLATE_NOOP("episcope::AnnotateController", "smooth boundaries")},
-      {EditKind::Polygon, QT_TRANSLATE_NOOP("episcope::AnnotateController", "polygon")},
-      {EditKind::Lasso, QT_TRANSLATE_NOOP("episcope::AnnotateController", "lasso")},
-      {EditKind::MergeLabel,
-       QT_TRANSLATE_NOOP("episcope::AnnotateController", "merging of labels")},
-      {EditKind::RenumberLabel, QT_TRANSLATE_NOOP("episcope::AnnotateController", "label number")},
-      {EditKind::MoveLabel, QT_TRANSLATE_NOOP("episcope::AnnotateController", "order of labels")}};
-  return AnnotateController::tr(texts.at(kind));
+  switch (kind) {
+    case EditKind::Paint:
+      return AnnotateController::tr("stroke");
+    case EditKind::Erase:
+      return AnnotateController::tr("erasing");
+    case EditKind::Fill:
+      return AnnotateController::tr("fill");
+    case EditKind::AddLabel:
+      return AnnotateController::tr("new label");
+    case EditKind::RenameLabel:
+      return AnnotateController::tr("label name");
+    case EditKind::RecolorLabel:
+      return AnnotateController::tr("label color");
+    case EditKind::RemoveLabel:
+      return AnnotateController::tr("label removal");
+    case EditKind::Import:
+      return AnnotateController::tr("import");
+    case EditKind::SmoothBoundaries:
+      return AnnotateController::tr("smooth boundaries");
+    case EditKind::Polygon:
+      return AnnotateController::tr("polygon");
+    case EditKind::Lasso:
+      return AnnotateController::tr("lasso");
+    case EditKind::MergeLabel:
+      return AnnotateController::tr("merging of labels");
+    case EditKind::RenumberLabel:
+      return AnnotateController::tr("label number");
+    case EditKind::MoveLabel:
+      return AnnotateController::tr("order of labels");
+  }
+  return {};
 }
 
 }  // namespace

@@ -540,7 +540,7 @@ void warn(const PlenopticPictures& pictures, const DecodeOptions& options, Decod
 
 /// Tells what is wrong with the white picture's exposure.
 void check_exposure(const RawPicture& white, const Levels& levels, Decoded& decoded) {
-  const double saturated = exposure_of(white).saturated;
+  const double saturated = saturated_share(white);
   if (saturated > kMostSaturated) {
     decoded.warnings.push_back(
         fmt::format(finding_text("plenoptic.white_saturated"), 100 * saturated));

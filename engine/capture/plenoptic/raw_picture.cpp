@@ -331,14 +331,17 @@ std::vector<std::pair<std::string, std::string>> RawFacts::table() const {
   return rows;
 }
 
-WhiteExposure exposure_of(const RawPicture& picture) {
+double light_level(const RawPicture& picture) {
   std::vector<std::uint16_t> samples(picture.samples.begin(), picture.samples.end());
   const auto level = samples.begin() + static_cast<std::ptrdiff_t>(samples.size() * 9 / 10);
   std::ranges::nth_element(samples, level);
-  const auto saturated =
-      std::ranges::count_if(samples, [&](std::uint16_t sample) { return sample >= picture.white; });
-  return {(*level - picture.black) / (picture.white - picture.black),
-          static_cast<double>(saturated) / static_cast<double>(samples.size())};
+  return (*level - picture.black) / (picture.white - picture.black);
+}
+
+double saturated_share(const RawPicture& picture) {
+  const auto saturated = std::ranges::count_if(
+      picture.samples, [&](std::uint16_t sample) { return sample >= picture.white; });
+  return static_cast<double>(saturated) / static_cast<double>(picture.samples.size());
 }
 
 Image<std::uint16_t> unpack(ByteView bytes, Packing packing, int height, int width) {

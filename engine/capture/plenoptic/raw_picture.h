@@ -72,12 +72,10 @@ struct RawPicture {
 inline constexpr double kMostSaturated = 0.01;
 inline constexpr double kDarkWhite = 0.1;
 
-/// How much light a white picture got.
-struct WhiteExposure {
-  double level = 0;      ///< That a tenth of the samples exceeds, from black (0) to white (1).
-  double saturated = 0;  ///< Share of the samples.
-};
-[[nodiscard]] WhiteExposure exposure_of(const RawPicture& picture);
+/// Level that a tenth of the samples exceeds, from black (0) to white (1).
+[[nodiscard]] double light_level(const RawPicture& picture);
+/// Share of the samples that are saturated.
+[[nodiscard]] double saturated_share(const RawPicture& picture);
 
 struct RawFile {
   RawPicture raw;

@@ -198,7 +198,7 @@ RawPicture best_exposed(const CalibrationFiles& files, const std::vector<WhiteCa
     if (most > 0 && each.rank != best.rank) break;
     const FileBytes text = files.at(metadata_name(each.name))();
     RawPicture picture = raw_from_json(files.at(each.name)(), {text.begin(), text.end()}, {});
-    const auto [level, saturated] = exposure_of(picture);
+    const double level = light_level(picture), saturated = saturated_share(picture);
     const double quality = level < kDarkWhite ? 0 : saturated > kMostSaturated ? kDarkWhite : level;
     if (quality <= most) {
       worse.push_back(each.name);

@@ -17,8 +17,8 @@ struct ArchiveForm {
   LabelFile labels = LabelFile::Usual;
   bool has_disparity = false;  ///< GT_DISPARITY beside GT_DEPTH, px per view step, NaN = not known.
   std::string origin{};  ///< How the light field was made, in a sentence; empty = nothing is said.
-  std::string
-      samples{};       ///< ConventionReport::samples, such as "uint16, linear"; empty = not said.
+  /// ConventionReport::samples, such as "uint16, linear"; empty = not said.
+  std::string samples{};
   std::string sign{};  ///< Why a nearer point has positive disparity; empty = not known.
 };
 
