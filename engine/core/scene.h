@@ -120,6 +120,13 @@ struct ViewCrop {
   [[nodiscard]] bool leaves_out() const { return !(kept == stored); }
 };
 
+/// What a file says of its light field, and files written from it go on to say; empty = nothing.
+struct StatedFacts {
+  std::string origin;   ///< How the light field was made, in a sentence.
+  std::string samples;  ///< ConventionReport::samples, such as "uint16, linear".
+  std::string sign;     ///< Why a nearer point has positive disparity.
+};
+
 /// Which conversion to the canonical convention a reader made, and how it was checked.
 struct ConventionReport {
   std::string format;             ///< "archive (lf.h5)", "2016 benchmark folder", "image grid", …
@@ -142,6 +149,7 @@ struct ConventionReport {
   bool reversed_v = false;     ///< and rows.
   ViewCrop crop;               ///< Which views were kept, for companions,
   bool raised_labels = false;  ///< and whether stored labels began at 0 and were raised by one.
+  StatedFacts stated;
 };
 
 /// Sentences for users: `order`, `sign`, or `units` with its check, and who chose it.

@@ -188,6 +188,8 @@ Scene scene_of(const Decoded& decoded, const FoundPictures& found) {
   scene.convention.sign = "checked";
   scene.convention.sign_check = "exact by construction";
   scene.convention.samples = decoded.is_gamma_encoded ? "uint16, gamma-encoded" : "uint16, linear";
+  scene.convention.stated = {scene.convention.format, scene.convention.samples,
+                             scene.convention.sign_check};
   scene.convention.warnings = found.notes;
   std::ranges::copy(decoded.warnings, std::back_inserter(scene.convention.warnings));
   return scene;
@@ -210,12 +212,7 @@ Scene decode_files(const PictureFiles& files, const DecodeOptions& options,
 
 void write_decoded(const fs::path& path, const Decoded& decoded, const FoundPictures& found,
                    const Progress& progress) {
-  const Scene scene = scene_of(decoded, found);
-  io::ArchiveForm form;
-  form.origin = scene.convention.format;
-  form.samples = scene.convention.samples;
-  form.sign = scene.convention.sign_check;
-  io::write_archive(path, scene, progress, form);
+  io::write_archive(path, scene_of(decoded, found), progress);
 }
 
 }  // namespace episcope::capture

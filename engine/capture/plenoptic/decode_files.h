@@ -38,7 +38,7 @@ struct FoundPictures {
 [[nodiscard]] RawFacts read_optics(const std::filesystem::path& path);
 
 /// What was decoded, as a scene that can be written or shown. Its format tells of raw picture,
-/// lenses and facts in one line, which files keep (io::ArchiveForm::origin).
+/// lenses and facts in one line, which files keep (StatedFacts::origin).
 /// Its warnings begin with the notes of `found`.
 [[nodiscard]] Scene scene_of(const Decoded& decoded, const FoundPictures& found);
 

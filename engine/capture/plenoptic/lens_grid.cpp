@@ -40,7 +40,8 @@ constexpr double kFaintest = 0.002;      // amplitude of the lattice over the me
 constexpr double kWorstResidual = 0.03;  // of the pitch
 // Of a scene: photographs have 0.023 and more, but in the square lattices that they show.
 constexpr double kWorstOfSquareScene = 0.02, kWorstOfHexagonalScene = 0.07;
-constexpr double kFewestInliers = 0.6;  // of the lenses that the lattice has there
+constexpr std::size_t kFewestOfScene = 150;  // in fewer, windows overlap so much that all agree
+constexpr double kFewestInliers = 0.6;       // of the lenses that the lattice has there
 
 [[noreturn]] void refuse(const std::string& why) {
   throw InvalidInput("no array of microlenses was found in this picture: " + why +
@@ -488,6 +489,10 @@ LensGrid fit_lens_grid(const Image<float>& picture, const Progress& progress, Le
     fit_robustly(grid, centers);
     describe(grid);
     if (is_all) break;
+  }
+  if (is_scene && grid.measured < kFewestOfScene) {
+    refuse(fmt::format("its strongest pattern, of {:.2f} px, is too coarse to be told from texture",
+                       grid.pitch_px));
   }
   const double worst = !is_scene                             ? kWorstResidual
                        : grid.lattice == LensLattice::Square ? kWorstOfSquareScene

@@ -311,6 +311,11 @@ void tell_unused_depth(const ArchiveTruth& depth, bool has_disparity, Convention
   }
 }
 
+StatedFacts read_stated(const Hdf5Input& file) {
+  const auto text = [&](const char* name) { return file.text("/", name).value_or(""); };
+  return {.origin = text(kOrigin), .samples = text(kSamples), .sign = text(kSign)};
+}
+
 /// For the report.
 std::string group_text(const Hdf5Input& file) {
   return file.group().empty() ? std::string() : ", group " + file.group();
@@ -326,7 +331,8 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
   ConventionReport& report = scene.convention;
   report.format =
       fmt::format(finding_text("format.archive"), path.filename().string() + group_text(file));
-  if (const auto origin = file.text("/", kOrigin)) report.format += ", " + *origin;
+  report.stated = read_stated(file);
+  if (!report.stated.origin.empty()) report.format += ", " + report.stated.origin;
   compare_sizes(file, report);
   tell_faults(file, report);
   LightFieldInfo info{scene_name(path),
@@ -346,9 +352,9 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
   const Progress reading = progress.part(0, read);
   ViewStack<std::uint8_t> valid = read_valid(file, layout.shape, reading.part(0.55, 0.58));
   if (valid.empty()) valid = read_alpha(file, layout, reading.part(0.58, 0.6));
-  if (const auto stated = file.text("/", kSamples); stated && options.levels.empty()) {
-    report.samples = *stated;
-  } else {
+  if (!options.levels.empty()) report.stated.samples.clear();
+  report.samples = report.stated.samples;
+  if (report.samples.empty()) {
     settle_range(samples, options.levels, report);
   }
   progress.step("reading depth");
@@ -381,10 +387,10 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
             .expected = std::move(expected),
             .valid = std::move(valid)},
            options, scene, progress.part(read, 1));
-  if (const auto sign = file.text("/", kSign);
-      sign && report.sign.empty() && !report.order_was_chosen) {
+  if (report.order_was_chosen) report.stated.sign.clear();
+  if (!report.stated.sign.empty() && report.sign.empty()) {
     report.sign = "checked";
-    report.sign_check = *sign;
+    report.sign_check = report.stated.sign;
   }
   scene.scribbles = std::move(labels.scribbles);
   put_in_order(scene.scribbles, grid, flip_of(report));

@@ -329,8 +329,9 @@ void write_archive(const std::filesystem::path& path, const Scene& scene, const 
   AtomicFile target(path, archive_bytes(scene, form.has_disparity) + label_room);
   Hdf5Output file(target);
   write_attributes(file, scene, camera);
+  const StatedFacts& stated = scene.convention.stated;
   const std::pair<const char*, const std::string&> texts[] = {
-      {kOrigin, form.origin}, {kSamples, form.samples}, {kSign, form.sign}};
+      {kOrigin, stated.origin}, {kSamples, stated.samples}, {kSign, stated.sign}};
   for (const auto& [name, text] : texts) {
     if (!text.empty()) file.set_text("/", name, text);
   }

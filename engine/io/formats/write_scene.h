@@ -16,10 +16,6 @@ enum class LabelFile { Usual, NamedAfter };
 struct ArchiveForm {
   LabelFile labels = LabelFile::Usual;
   bool has_disparity = false;  ///< GT_DISPARITY beside GT_DEPTH, px per view step, NaN = not known.
-  std::string origin{};  ///< How the light field was made, in a sentence; empty = nothing is said.
-  /// ConventionReport::samples, such as "uint16, linear"; empty = not said.
-  std::string samples{};
-  std::string sign{};  ///< Why a nearer point has positive disparity; empty = not known.
 };
 
 /// Writes a scene in the form of the 2013 archive: the light field and its depth to `path`, labels
@@ -48,9 +44,8 @@ inline constexpr const char* kConvention = "convention";
 inline constexpr const char* kConventionText =
     "d = dH*focalLength/Z - shift; point at (x,y) in view (v,h) is at (x-d,y) in (v,h+1) and "
     "(x,y-d) in (v+1,h)";
-/// Attribute of the root: how the light field was made (ArchiveForm::origin).
+/// Attributes of the root: StatedFacts.
 inline constexpr const char* kOrigin = "origin";
-/// Attributes of the root: ArchiveForm::samples and ::sign.
 inline constexpr const char* kSamples = "samples";
 inline constexpr const char* kSign = "sign";
 /// Attribute of the root: x and y of the camera of each view, row by row; and their unit.

@@ -10,6 +10,9 @@ expect("samples and sign are kept" 0 OUT "uint16, gamma-encoded.*sign +checked" 
 expect("linear" 0 ERR "--mosaic is ignored" OUT "linear samples" ARGS decode f01/raw.lfp --white
        f01/calibration --linear --mosaic GRBG -o linear.h5)
 expect("linear is kept" 0 OUT "uint16, linear" ARGS info linear.h5)
+expect("conversion" 0 OUT "written" ERR "dark" ARGS convert linear.h5 converted.h5)
+expect("a conversion keeps what is stated" 0 OUT "decoded from.*uint16, linear.*sign +checked"
+       ARGS info converted.h5)
 expect("again" 1 ERR "--overwrite" ARGS decode f01/raw.lfp -o lf.h5)
 expect("as JSON" 0 ERR "nearest of 2" ARGS decode f01/raw.lfp --white f01/calibration --views 5
        -o five.h5 --json)

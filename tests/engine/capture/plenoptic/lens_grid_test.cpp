@@ -165,6 +165,14 @@ class LensGridTest : public QObject {
     QVERIFY2(error <= 0.2, qPrintable(QString("off by %1 px rms").arg(error)));
   }
 
+  // Windows around lenses would overlap so much that any texture fits.
+  void fewCoarseLensesOfAScene_areRefused() {
+    const Array array{.pitch = 19.2, .width = 320, .height = 256};
+    QCOMPARE(problem_of(picture_of(array)), QString("an array was found"));
+    const QString problem = problem_of(picture_of(array), LensLight::Scene);
+    QVERIFY2(problem.contains("too coarse to be told from texture"), qPrintable(problem));
+  }
+
   void pitchOfTheOptics_isChecked() {
     PlenopticPictures pictures{raw_of(picture_of({.noise = 0})), {}, {}};
     pictures.white = pictures.raw;
