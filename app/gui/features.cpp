@@ -32,6 +32,7 @@
 #include "app/gui/shell/manual_window.h"
 #include "app/gui/shell/panes.h"
 #include "engine/core/version.h"
+#include "widgets/controls/layout.h"
 #include "widgets/controls/tool_button.h"
 #include "widgets/panels/brush_panel.h"
 #include "widgets/panels/label_palette.h"

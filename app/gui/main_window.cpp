@@ -15,7 +15,7 @@
 #include "app/session/session.h"
 #include "engine/core/parallel.h"
 #include "widgets/canvas/view_canvas.h"
-#include "widgets/controls/tool_button.h"
+#include "widgets/controls/layout.h"
 
 #include <QByteArray>
 #include <QCloseEvent>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/cloud/point_cloud_panel.h"
 
+#include "widgets/controls/layout.h"
 #include "widgets/controls/number_spin.h"
 #include "widgets/controls/theme.h"
 #include "widgets/controls/tool_button.h"

@@ -2,7 +2,7 @@
 #include "widgets/cloud/point_cloud_view.h"
 
 #include "widgets/cloud/cloud_scene.h"
-#include "widgets/controls/tool_button.h"
+#include "widgets/controls/layout.h"
 
 #include <vtkCommand.h>
 #include <vtkVersion.h>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/controls/parameter_editor.h"
 
+#include "widgets/controls/layout.h"
 #include "widgets/controls/number_spin.h"
 #include "widgets/controls/text.h"
 #include "widgets/controls/theme.h"
-#include "widgets/controls/tool_button.h"
 
 #include <QCheckBox>
 #include <QComboBox>

@@ -1,22 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/controls/tool_button.h"
 
+#include "widgets/controls/layout.h"
 #include "widgets/controls/theme.h"
 
 #include <QAction>
-#include <QEvent>
 #include <QFile>
 #include <QGuiApplication>
-#include <QHBoxLayout>
-#include <QLabel>
 #include <QPainter>
 #include <QPixmap>
 #include <QPixmapCache>
 #include <QSvgRenderer>
 #include <QToolButton>
-#include <QVBoxLayout>
-
-#include <algorithm>
 
 // Resources of a static library register themselves only when asked to, outside of any namespace.
 static void register_resources() {
@@ -128,128 +123,4 @@ void follow_tip(QWidget* widget, const QAction* action) {
   follow();
 }
 
-namespace {
-
-template <class Layout>
-Layout* fill(Layout* layout, std::initializer_list<LayoutPart> parts, const LayoutLook& look) {
-  layout->setContentsMargins(look.margins);
-  layout->setSpacing(look.spacing);
-  for (const LayoutPart& part : parts) {
-    if (part.widget) {
-      layout->addWidget(part.widget, part.share);
-    } else if (part.layout) {
-      layout->addLayout(part.layout, part.share);
-    } else {
-      layout->addStretch(part.share);
-    }
-  }
-  return layout;
-}
-
-}  // namespace
-
-QVBoxLayout* make_column(QWidget* place, std::initializer_list<LayoutPart> parts,
-                         const LayoutLook& look) {
-  return fill(new QVBoxLayout(place), parts, look);
-}
-
-QHBoxLayout* make_row(QWidget* place, std::initializer_list<LayoutPart> parts,
-                      const LayoutLook& look) {
-  return fill(new QHBoxLayout(place), parts, look);
-}
-
-QHBoxLayout* make_row(std::initializer_list<LayoutPart> parts, const LayoutLook& look) {
-  return make_row(nullptr, parts, look);
-}
-
-void lay_out_list(QWidget* panel, QLabel* hint, QWidget* list,
-                  std::initializer_list<QToolButton*> buttons) {
-  hint->setAlignment(Qt::AlignCenter);
-  hint->setWordWrap(true);
-  auto* row = new QHBoxLayout;
-  row->setSpacing(2);
-  for (auto* button : buttons) row->addWidget(button);
-  row->addStretch(1);
-  make_column(panel, {{hint, 1}, {list, 1}, row}, {.spacing = 4});
-}
-
-FittingSplitter::FittingSplitter(int least_rest, QWidget* parent)
-    : QSplitter(Qt::Vertical, parent), least_rest_(least_rest) {
-  setChildrenCollapsible(false);
-  connect(this, &QSplitter::splitterMoved, this, [this] { is_dragged_ = true; });
-}
-
-bool FittingSplitter::event(QEvent* event) {
-  const bool is_handled = QSplitter::event(event);
-  if (event->type() == QEvent::LayoutRequest) fit();
-  return is_handled;
-}
-
-void FittingSplitter::resizeEvent(QResizeEvent* event) {
-  QSplitter::resizeEvent(event);
-  fit();
-}
-
-void FittingSplitter::fit() {
-  if (is_dragged_ || count() != 2) return;
-  const int room = height() - handleWidth();
-  const int wanted = std::min(widget(0)->sizeHint().height(), room - least_rest_);
-  setSizes({wanted, room - wanted});
-}
-
-namespace {
-
-constexpr int kAsideGap = 14;
-constexpr int kAsidePadding = 4;
-
-}  // namespace
-
-AsideDelegate::AsideDelegate(Place place, QObject* parent)
-    : QStyledItemDelegate(parent), place_(place) {}
-
-int AsideDelegate::begin(const QStyleOptionViewItem& option, const QModelIndex& index) const {
-  if (place_ == Place::End) {
-    return QStyledItemDelegate::sizeHint(option, index).width() + kAsideGap;
-  }
-  int widest = 0;
-  for (int row = 0; row < index.model()->rowCount(index.parent()); ++row) {
-    const QModelIndex each = index.siblingAtRow(row);
-    widest = std::max(widest, QStyledItemDelegate::sizeHint(option, each).width());
-  }
-  return widest + kAsideGap;
-}
-
-void AsideDelegate::paint(QPainter* painter, const QStyleOptionViewItem& option,
-                          const QModelIndex& index) const {
-  QStyledItemDelegate::paint(painter, option, index);
-  const QRect rect = option.rect.adjusted(begin(option, index), 0, -kAsidePadding, 0);
-  const bool is_selected = option.state.testFlag(QStyle::State_Selected);
-  painter->save();
-  painter->setFont(option.font);
-  painter->setPen(is_selected ? option.palette.color(QPalette::HighlightedText)
-                              : theme::muted_text(option.palette));
-  const QString text = option.fontMetrics.elidedText(index.data(kAsideRole).toString(),
-                                                     Qt::ElideRight, rect.width());
-  const auto side = place_ == Place::End ? Qt::AlignRight : Qt::AlignLeft;
-  painter->drawText(rect, Qt::AlignVCenter | side | Qt::TextSingleLine, text);
-  painter->restore();
-}
-
-void AsideDelegate::initStyleOption(QStyleOptionViewItem* option, const QModelIndex& index) const {
-  QStyledItemDelegate::initStyleOption(option, index);
-  if (place_ == Place::Column) return;
-  const int aside = option->fontMetrics.horizontalAdvance(index.data(kAsideRole).toString());
-  const int room = option->rect.width() - aside - kAsideGap - 4 * kAsidePadding;
-  option->text = option->fontMetrics.elidedText(option->text, option->textElideMode, room);
-}
-
-QSize AsideDelegate::sizeHint(const QStyleOptionViewItem& option, const QModelIndex& index) const {
-  const QSize size = QStyledItemDelegate::sizeHint(option, index);
-  if (place_ == Place::End) return {0, size.height()};  // no wider than the list
-  const int aside = option.fontMetrics.horizontalAdvance(index.data(kAsideRole).toString());
-  return {begin(option, index) + aside + kAsidePadding, size.height()};
-}
-
 }  // namespace episcope
-
-#include "moc_tool_button.cpp"

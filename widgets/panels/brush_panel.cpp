@@ -2,6 +2,7 @@
 #include "widgets/panels/brush_panel.h"
 
 #include "annotation/brush.h"
+#include "widgets/controls/layout.h"
 #include "widgets/controls/theme.h"
 #include "widgets/controls/tool_button.h"
 

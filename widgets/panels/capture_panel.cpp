@@ -2,6 +2,7 @@
 #include "widgets/panels/capture_panel.h"
 
 #include "widgets/cloud/point_cloud_view.h"
+#include "widgets/controls/layout.h"
 #include "widgets/controls/text.h"
 #include "widgets/controls/theme.h"
 #include "widgets/controls/tool_button.h"

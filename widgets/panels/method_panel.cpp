@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/panels/method_panel.h"
 
+#include "widgets/controls/aside_delegate.h"
+#include "widgets/controls/layout.h"
 #include "widgets/controls/text.h"
 #include "widgets/controls/theme.h"
 #include "widgets/controls/tool_button.h"

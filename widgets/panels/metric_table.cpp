@@ -2,6 +2,7 @@
 #include "widgets/panels/metric_table.h"
 
 #include "engine/core/text_table.h"
+#include "widgets/controls/layout.h"
 #include "widgets/controls/text.h"
 #include "widgets/controls/theme.h"
 #include "widgets/controls/tool_button.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/panels/movie_panel.h"
 
+#include "widgets/controls/layout.h"
 #include "widgets/controls/number_spin.h"
-#include "widgets/controls/tool_button.h"
 
 #include <QComboBox>
 #include <QDialogButtonBox>

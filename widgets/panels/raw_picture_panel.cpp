@@ -3,8 +3,8 @@
 
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/controls/labels.h"
+#include "widgets/controls/layout.h"
 #include "widgets/controls/theme.h"
-#include "widgets/controls/tool_button.h"
 
 #include <QCheckBox>
 #include <QComboBox>

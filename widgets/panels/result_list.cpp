@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/panels/result_list.h"
 
+#include "widgets/controls/layout.h"
 #include "widgets/controls/text.h"
 #include "widgets/controls/theme.h"
 #include "widgets/controls/tool_button.h"

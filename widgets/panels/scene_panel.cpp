@@ -2,6 +2,7 @@
 #include "widgets/panels/scene_panel.h"
 
 #include "widgets/controls/labels.h"
+#include "widgets/controls/layout.h"
 #include "widgets/controls/theme.h"
 #include "widgets/controls/tool_button.h"
 

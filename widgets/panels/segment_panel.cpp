@@ -2,6 +2,7 @@
 #include "widgets/panels/segment_panel.h"
 
 #include "annotation/document.h"
+#include "widgets/controls/layout.h"
 #include "widgets/controls/number_spin.h"
 #include "widgets/controls/theme.h"
 #include "widgets/controls/tool_button.h"

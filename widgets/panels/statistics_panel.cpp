@@ -2,11 +2,11 @@
 #include "widgets/panels/statistics_panel.h"
 
 #include "widgets/controls/labels.h"
+#include "widgets/controls/layout.h"
 #include "widgets/controls/line_plot.h"
 #include "widgets/controls/number_spin.h"
 #include "widgets/controls/text.h"
 #include "widgets/controls/theme.h"
-#include "widgets/controls/tool_button.h"
 
 #include <QEvent>
 #include <QGridLayout>

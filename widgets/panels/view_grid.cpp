@@ -2,6 +2,7 @@
 #include "widgets/panels/view_grid.h"
 
 #include "engine/render/movie.h"
+#include "widgets/controls/layout.h"
 #include "widgets/controls/theme.h"
 #include "widgets/controls/tool_button.h"
 

@@ -17,8 +17,8 @@
 #include "engine/io/base/image_file.h"
 #include "engine/io/models/labels/label_pictures.h"
 #include "engine/io/models/scribble_file.h"
+#include "widgets/controls/layout.h"
 #include "widgets/controls/message_bar.h"
-#include "widgets/controls/tool_button.h"
 #include "widgets/panels/brush_panel.h"
 
 #include <QCoreApplication>

@@ -7,8 +7,8 @@
 #include "app/gui/shell/commands.h"
 #include "app/gui/shell/dialogs.h"
 #include "app/gui/shell/frame.h"
+#include "widgets/controls/layout.h"
 #include "widgets/controls/text.h"
-#include "widgets/controls/tool_button.h"
 #include "widgets/panels/label_palette.h"
 
 #include <QColorDialog>

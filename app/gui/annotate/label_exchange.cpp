@@ -12,8 +12,8 @@
 #include "app/session/picture.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/models/scribble_file.h"
+#include "widgets/controls/layout.h"
 #include "widgets/controls/picture.h"
-#include "widgets/controls/tool_button.h"
 #include "widgets/panels/brush_panel.h"
 
 #include <QButtonGroup>

@@ -7,9 +7,9 @@
 #include "app/gui/shell/commands.h"
 #include "app/gui/shell/frame.h"
 #include "widgets/canvas/view_canvas.h"
+#include "widgets/controls/layout.h"
 #include "widgets/controls/picture.h"
 #include "widgets/controls/text.h"
-#include "widgets/controls/tool_button.h"
 
 #include <QAction>
 #include <QComboBox>

@@ -13,9 +13,9 @@
 #include "engine/disparity/disparity_range.h"
 #include "widgets/canvas/epi_pane.h"
 #include "widgets/canvas/view_canvas.h"
+#include "widgets/controls/layout.h"
 #include "widgets/controls/picture.h"
 #include "widgets/controls/theme.h"
-#include "widgets/controls/tool_button.h"
 #include "widgets/panels/overlay_bar.h"
 #include "widgets/panels/view_grid.h"
 

@@ -7,6 +7,7 @@
 #include "app/gui/shell/dialogs.h"
 #include "app/gui/shell/frame.h"
 #include "app/session/session.h"
+#include "widgets/controls/layout.h"
 #include "widgets/controls/text.h"
 #include "widgets/controls/tool_button.h"
 

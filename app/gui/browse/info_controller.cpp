@@ -16,10 +16,10 @@
 #include "engine/io/models/order/order_check.h"
 #include "engine/io/models/reader.h"
 #include "widgets/controls/labels.h"
+#include "widgets/controls/layout.h"
 #include "widgets/controls/parameter_form.h"
 #include "widgets/controls/text.h"
 #include "widgets/controls/theme.h"
-#include "widgets/controls/tool_button.h"
 #include "widgets/panels/info_panel.h"
 
 #include <QAction>

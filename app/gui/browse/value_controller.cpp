@@ -9,8 +9,8 @@
 #include "app/session/session.h"
 #include "engine/render/shade.h"
 #include "widgets/canvas/view_canvas.h"
+#include "widgets/controls/layout.h"
 #include "widgets/controls/text.h"
-#include "widgets/controls/tool_button.h"
 #include "widgets/panels/value_bar.h"
 
 #include <QDialog>

@@ -17,7 +17,7 @@
 #include "engine/core/error.h"
 #include "engine/io/formats/write_scene.h"
 #include "widgets/canvas/view_canvas.h"
-#include "widgets/controls/tool_button.h"
+#include "widgets/controls/layout.h"
 #include "widgets/panels/capture_panel.h"
 #include "widgets/panels/raw_picture_panel.h"
 

@@ -8,8 +8,8 @@
 #include "app/session/session.h"
 #include "engine/core/error.h"
 #include "engine/core/parameter.h"
+#include "widgets/controls/layout.h"
 #include "widgets/controls/parameter_form.h"
-#include "widgets/controls/tool_button.h"
 
 #include <QCoreApplication>
 #include <QDialog>

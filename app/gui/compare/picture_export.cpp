@@ -10,8 +10,8 @@
 #include "app/session/session.h"
 #include "engine/io/base/image_file.h"
 #include "widgets/canvas/view_canvas.h"
+#include "widgets/controls/layout.h"
 #include "widgets/controls/picture.h"
-#include "widgets/controls/tool_button.h"
 #include "widgets/panels/movie_panel.h"
 
 #include <QCoreApplication>

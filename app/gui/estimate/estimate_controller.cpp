@@ -13,8 +13,8 @@
 #include "app/session/command_line.h"
 #include "app/session/load_scene.h"
 #include "engine/disparity/registry.h"
+#include "widgets/controls/layout.h"
 #include "widgets/controls/text.h"
-#include "widgets/controls/tool_button.h"
 #include "widgets/panels/method_panel.h"
 #include "widgets/panels/result_list.h"
 

@@ -9,9 +9,9 @@
 #include "app/session/load_scene.h"
 #include "app/session/user_folders.h"
 #include "engine/core/error.h"
+#include "widgets/controls/layout.h"
 #include "widgets/controls/message_bar.h"
 #include "widgets/controls/text.h"
-#include "widgets/controls/tool_button.h"
 
 #include <algorithm>
 

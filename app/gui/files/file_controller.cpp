@@ -17,10 +17,11 @@
 #include "app/session/session.h"
 #include "engine/core/error.h"
 #include "widgets/canvas/view_canvas.h"
+#include "widgets/controls/aside_delegate.h"
+#include "widgets/controls/layout.h"
 #include "widgets/controls/parameter_form.h"
 #include "widgets/controls/text.h"
 #include "widgets/controls/theme.h"
-#include "widgets/controls/tool_button.h"
 
 #include <QAction>
 #include <QCoreApplication>

@@ -14,8 +14,8 @@
 #include "app/session/project_file.h"
 #include "app/session/project_store.h"
 #include "app/session/session.h"
+#include "widgets/controls/layout.h"
 #include "widgets/controls/message_bar.h"
-#include "widgets/controls/tool_button.h"
 
 #include <QAbstractButton>
 #include <QComboBox>

@@ -6,6 +6,7 @@
 #include "app/gui/shell/frame.h"
 #include "app/session/load_scene.h"
 #include "app/session/session.h"
+#include "widgets/controls/layout.h"
 #include "widgets/controls/message_bar.h"
 #include "widgets/controls/theme.h"
 #include "widgets/controls/tool_button.h"

@@ -12,10 +12,10 @@
 #include "engine/core/finding.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/controls/labels.h"
+#include "widgets/controls/layout.h"
 #include "widgets/controls/picture.h"
 #include "widgets/controls/text.h"
 #include "widgets/controls/theme.h"
-#include "widgets/controls/tool_button.h"
 
 #include <fmt/format.h>
 

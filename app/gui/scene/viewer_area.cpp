@@ -6,8 +6,8 @@
 #include "widgets/canvas/epi_pane.h"
 #include "widgets/canvas/tile_wall.h"
 #include "widgets/canvas/view_canvas.h"
+#include "widgets/controls/layout.h"
 #include "widgets/controls/theme.h"
-#include "widgets/controls/tool_button.h"
 #include "widgets/panels/color_bar.h"
 #include "widgets/panels/overlay_bar.h"
 

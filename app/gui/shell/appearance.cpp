@@ -3,8 +3,8 @@
 
 #include "app/gui/shell/commands.h"
 #include "app/gui/shell/frame.h"
+#include "widgets/controls/layout.h"
 #include "widgets/controls/theme.h"
-#include "widgets/controls/tool_button.h"
 
 #include <QAction>
 #include <QApplication>

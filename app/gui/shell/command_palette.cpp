@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/shell/command_palette.h"
 
+#include "widgets/controls/aside_delegate.h"
+#include "widgets/controls/layout.h"
 #include "widgets/controls/theme.h"
-#include "widgets/controls/tool_button.h"
 
 #include <QAction>
 #include <QCoreApplication>

@@ -7,8 +7,8 @@
 #include "app/session/load_scene.h"
 #include "app/session/session.h"
 #include "engine/core/error.h"
+#include "widgets/controls/layout.h"
 #include "widgets/controls/text.h"
-#include "widgets/controls/tool_button.h"
 
 #include <QCoreApplication>
 #include <QDateTime>

@@ -3,8 +3,8 @@
 
 #include "app/gui/shell/panes.h"
 #include "widgets/canvas/canvas_geometry.h"
+#include "widgets/controls/layout.h"
 #include "widgets/controls/theme.h"
-#include "widgets/controls/tool_button.h"
 
 #include <QEvent>
 #include <QMenu>

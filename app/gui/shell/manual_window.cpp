@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/shell/manual_window.h"
 
+#include "widgets/controls/layout.h"
 #include "widgets/controls/theme.h"
-#include "widgets/controls/tool_button.h"
 
 #include <QCoreApplication>
 #include <QDir>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/shell/panes.h"
 
-#include "widgets/controls/tool_button.h"
+#include "widgets/controls/layout.h"
 
 #include <QAbstractButton>
 #include <QAbstractItemView>

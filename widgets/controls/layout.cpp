@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "widgets/controls/layout.h"
+
+#include <QEvent>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+#include <algorithm>
+
+namespace episcope {
+
+namespace {
+
+template <class Layout>
+Layout* fill(Layout* layout, std::initializer_list<LayoutPart> parts, const LayoutLook& look) {
+  layout->setContentsMargins(look.margins);
+  layout->setSpacing(look.spacing);
+  for (const LayoutPart& part : parts) {
+    if (part.widget) {
+      layout->addWidget(part.widget, part.share);
+    } else if (part.layout) {
+      layout->addLayout(part.layout, part.share);
+    } else {
+      layout->addStretch(part.share);
+    }
+  }
+  return layout;
+}
+
+}  // namespace
+
+QVBoxLayout* make_column(QWidget* place, std::initializer_list<LayoutPart> parts,
+                         const LayoutLook& look) {
+  return fill(new QVBoxLayout(place), parts, look);
+}
+
+QHBoxLayout* make_row(QWidget* place, std::initializer_list<LayoutPart> parts,
+                      const LayoutLook& look) {
+  return fill(new QHBoxLayout(place), parts, look);
+}
+
+QHBoxLayout* make_row(std::initializer_list<LayoutPart> parts, const LayoutLook& look) {
+  return make_row(nullptr, parts, look);
+}
+
+void lay_out_list(QWidget* panel, QLabel* hint, QWidget* list,
+                  std::initializer_list<QToolButton*> buttons) {
+  hint->setAlignment(Qt::AlignCenter);
+  hint->setWordWrap(true);
+  auto* row = new QHBoxLayout;
+  row->setSpacing(2);
+  for (auto* button : buttons) row->addWidget(button);
+  row->addStretch(1);
+  make_column(panel, {{hint, 1}, {list, 1}, row}, {.spacing = 4});
+}
+
+FittingSplitter::FittingSplitter(int least_rest, QWidget* parent)
+    : QSplitter(Qt::Vertical, parent), least_rest_(least_rest) {
+  setChildrenCollapsible(false);
+  connect(this, &QSplitter::splitterMoved, this, [this] { is_dragged_ = true; });
+}
+
+bool FittingSplitter::event(QEvent* event) {
+  const bool is_handled = QSplitter::event(event);
+  if (event->type() == QEvent::LayoutRequest) fit();
+  return is_handled;
+}
+
+void FittingSplitter::resizeEvent(QResizeEvent* event) {
+  QSplitter::resizeEvent(event);
+  fit();
+}
+
+void FittingSplitter::fit() {
+  if (is_dragged_ || count() != 2) return;
+  const int room = height() - handleWidth();
+  const int wanted = std::min(widget(0)->sizeHint().height(), room - least_rest_);
+  setSizes({wanted, room - wanted});
+}
+
+}  // namespace episcope
+
+#include "moc_layout.cpp"
