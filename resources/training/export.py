@@ -51,11 +51,11 @@ def fold(net):
     return net
 
 
-def layers(net):
-    """name -> convolution, whether a leaky ReLU follows directly."""
+def layers(net, second=(nn.Identity,)):
+    """name -> convolution, whether a leaky ReLU follows directly. second: what stands between the two."""
     found, inside = {}, set()
     for name, m in net.named_modules():
-        if isinstance(m, nn.Sequential) and len(m) == 3 and isinstance(m[0], CONV) and isinstance(m[1], nn.Identity):
+        if isinstance(m, nn.Sequential) and len(m) == 3 and isinstance(m[0], CONV) and isinstance(m[1], second):
             found[name] = m[0], True
             inside.add(m[0])
     for name, m in net.named_modules():
@@ -138,13 +138,15 @@ def read(path, device='cuda'):
 
 
 def unfold(net, path):
-    """Puts released weights into a network with BatchNorm, which only adds the bias (Trainer.calibrate goes on)."""
+    """Puts released weights into a network with BatchNorm, which only adds the bias (Trainer.calibrate goes on).
+    Returns the names of the layers that the file lacks."""
     z = np.load(path)
+    found = [n[:-7] for n in z.files if n.endswith('.weight')]
     with torch.no_grad():
         for m in net.modules():
             if isinstance(m, NORM):
                 m.running_mean.zero_(), m.running_var.fill_(1 - m.eps), m.weight.fill_(1), m.bias.zero_()
-        for name in [n[:-7] for n in z.files if n.endswith('.weight')]:
+        for name in found:
             m = net.get_submodule(name)
             folded = isinstance(m, nn.Sequential)
             c, w = m[0] if folded else m, torch.tensor(restored(z, name))
@@ -152,6 +154,7 @@ def unfold(net, path):
             c.weight[:, :w.shape[1]] = w.to(c.weight.device)
             if name + '.bias' in z.files:
                 (m[1] if folded else c).bias.copy_(torch.tensor(z[name + '.bias'].astype(np.float32)))
+    return sorted(set(layers(net, NORM)) - set(found))
 
 
 def vectors(net, path):

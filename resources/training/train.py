@@ -46,6 +46,7 @@ def arguments():
     p.add_argument('--averaged', action='store_true', help='start from the averaged weights')
     p.add_argument('--rate', type=float, default=1.5e-3)
     p.add_argument('--end', type=float, help='rate at the end of the piece (default: the same)')
+    p.add_argument('--new-rate', type=float, default=1., help='of the rate, for layers that the weights of --warm lack')
     p.add_argument('--volume-rate', type=float, default=.4, help='of the rate, for the volume')
     p.add_argument('--volume-every', type=int, default=2, help='batches between updates of the volume')
     p.add_argument('--seed', type=int, default=1)
@@ -122,15 +123,18 @@ class Trainer:
             print('new:', network.load(self.net, torch.load(path('net.pt'), map_location=dev)))
             self.done = json.load(open(path('state.json')))
         elif a.warm:
-            export.unfold(self.net, a.warm)
+            self.done['new'] = export.unfold(self.net, a.warm)
+            print('new:', self.done['new'])
         if a.revive:
             with torch.no_grad():
                 revive(self.net.state_dict(), a.seed)
         self.ema = copy.deepcopy(self.net).eval().requires_grad_(False)
         if os.path.exists(path('ema.pt')) and not a.revive:
             network.load(self.ema, torch.load(path('ema.pt'), map_location=dev))
-        groups = [dict(params=list(getattr(self.net, n).parameters()), name=n) for n in PARTS]
-        self.opt = torch.optim.AdamW(groups, a.rate, weight_decay=1e-4, betas=(.9, .99), fused=True)
+        groups = [dict(params=[p for n, p in self.net.named_parameters() if n.startswith(part + '.') and self.is_new(n) == new],
+                       factor=(a.volume_rate if part == 'volume' else 1.) * (a.new_rate if new else 1.))
+                  for new in (False, True) for part in PARTS]
+        self.opt = torch.optim.AdamW([g for g in groups if g['params']], a.rate, weight_decay=1e-4, betas=(.9, .99), fused=True)
         if os.path.exists(path('opt.pt')):
             self.opt.load_state_dict(torch.load(path('opt.pt'), map_location=dev))
         self.seed = a.seed * 1000003 + self.done['iteration']
@@ -149,10 +153,16 @@ class Trainer:
                 if isinstance(m, export.NORM):
                     m.eval()
 
+    def is_new(self, name):
+        """Whether the weights of --warm lacked this layer."""
+        return any(name.startswith(n + '.') for n in self.done.get('new', ()))
+
     def calibrate(self, batches=24):
         """BatchNorm of released weights only adds a bias (export.unfold). It gets the mean and the variance of
-        what it sees in training, and a scale and a shift with which its output stays the same."""
-        seen = {m: [] for m in self.net.modules() if isinstance(m, export.NORM)}
+        what it sees in training, and a scale and a shift with which its output stays the same; that of new
+        layers begins with a mean of 0 and a variance of 1."""
+        names = {m: n for n, m in self.net.named_modules() if isinstance(m, export.NORM)}
+        seen = {m: [] for m in names}
         hooks = [m.register_forward_pre_hook(lambda m, x: seen[m].append(torch.stack(
             [(x[0].float() ** k).transpose(0, 1).flatten(1).mean(1) for k in (1, 2)]))) for m in seen]
         self.net.eval()
@@ -163,8 +173,9 @@ class Trainer:
                 mean, square = torch.stack(s).mean(0)
                 m.running_mean.copy_(mean)
                 m.running_var.copy_((square - mean ** 2).clamp_min(0))
-                m.bias.add_(mean)
-                m.weight.copy_((m.running_var + m.eps).sqrt())
+                if not self.is_new(names[m]):
+                    m.bias.add_(mean)
+                    m.weight.copy_((m.running_var + m.eps).sqrt())
         for h in hooks:
             h.remove()
         self.net.train()
@@ -267,7 +278,7 @@ class Trainer:
         if CARDS > 1:
             self.share_gradients()
         for g in self.opt.param_groups:
-            g['lr'] = rate * (self.a.volume_rate if g['name'] == 'volume' else 1.)
+            g['lr'] = rate * g['factor']
             nn.utils.clip_grad_norm_(g['params'], 2.)
         self.opt.step()
         if it % 4 == 3:
