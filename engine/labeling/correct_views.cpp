@@ -149,15 +149,34 @@ float price_of_held(double smoothness) {
   return static_cast<float>(8 * smoothness + 8);
 }
 
-// The changed pixels of a view, and those around them.
-Image<std::uint8_t> around(ImageView<const std::uint8_t> changed) {
-  const cv::Size window(2 * kReach_px + 1, 2 * kReach_px + 1);
+// The marked pixels of a view, and those around them.
+Image<std::uint8_t> around(ImageView<const std::uint8_t> marks, int reach_px) {
+  const cv::Size window(2 * reach_px + 1, 2 * reach_px + 1);
   // OpenCV has no constant matrices; this one is only read.
-  const cv::Mat map(changed.height, changed.width, CV_8U, const_cast<std::uint8_t*>(changed.data));
-  Image<std::uint8_t> all(changed.height, changed.width);
+  const cv::Mat map(marks.height, marks.width, CV_8U, const_cast<std::uint8_t*>(marks.data));
+  Image<std::uint8_t> all(marks.height, marks.width);
   cv::Mat wide(all.height(), all.width(), CV_8U, all.data());
   cv::dilate(map, wide, cv::getStructuringElement(cv::MORPH_RECT, window));
   return all;
+}
+
+// The marked pixels of each square of so many px that has some.
+constexpr int kTile_px = 32;
+std::vector<Blob> tiles_of(const Image<std::uint8_t>& marks) {
+  std::vector<Blob> tiles;
+  const cv::Mat map(marks.height(), marks.width(), CV_8U, const_cast<std::uint8_t*>(marks.data()));
+  for (int y = 0; y < map.rows; y += kTile_px) {
+    for (int x = 0; x < map.cols; x += kTile_px) {
+      const cv::Rect square = cv::Rect(x, y, kTile_px, kTile_px) & cv::Rect({}, map.size());
+      const cv::Rect marked = cv::boundingRect(map(square)) + square.tl();
+      if (marked.empty()) continue;
+      Blob& tile = tiles.emplace_back();
+      tile.bounds = {marked.y, marked.x, marked.br().y, marked.br().x};
+      tile.mask = Image<std::uint8_t>(marked.height, marked.width);
+      map(marked).copyTo(cv::Mat(marked.size(), CV_8U, tile.mask.data()));
+    }
+  }
+  return tiles;
 }
 
 // A part of a view that is solved again, with a border of one pixel that is held.
@@ -180,6 +199,15 @@ Image<float> part_of(const Image<float>& weights, const PixelRect& rect) {
   return part;
 }
 
+// A view that was solved: its layers before and after.
+struct SolvedView {
+  ViewIndex view;
+  ImageView<const std::int32_t> before, after;
+};
+
+// Rays this near to a boundary that was carried along the rays are solved again.
+constexpr int kBoundary_px = 3;
+
 class ViewCorrector {
  public:
   ViewCorrector(const RayLabelingInput& input, const RayLabelingParameters& parameters,
@@ -188,103 +216,124 @@ class ViewCorrector {
         parameters_(parameters),
         colors_(colors),
         table_(cost_table(parameters.floor)),
-        targets_(static_cast<std::size_t>(input.disparity->disparity.width())),
+        costs_(input.disparity->disparity.height(),
+               static_cast<int>(input.probabilities->ids.size()),
+               input.disparity->disparity.width()),
+        targets_(static_cast<std::size_t>(costs_.width())),
         trusts_(targets_.size()) {}
 
   // Replaces labels of the view, layers, around its changed pixels.
   SimplexResult correct(ViewIndex view, ImageView<const std::uint8_t> changed,
                         const Progress& progress, ImageView<std::int32_t> layers) {
-    SimplexResult sum;
-    const std::vector<Blob> blobs = blobs_of(around(changed), Neighbors::Corners);
-    if (blobs.empty()) return sum;
-    const Image<float> weights = boundary_weights_of(input_, view);
-    for (const Blob& blob : blobs) {
-      const PixelRect& own = blob.bounds;
-      const PixelRect rect{std::max(own.y0 - 1, 0), std::max(own.x0 - 1, 0),
-                           std::min(own.y1 + 1, changed.height),
-                           std::min(own.x1 + 1, changed.width)};
-      add_part(solve(view, {blob, rect, part_of(weights, rect)}, progress, layers), sum);
-    }
-    return sum;
+    const Image<std::uint8_t> open = around(changed, kReach_px);
+    const auto options = simplex_options(parameters_, parameters_.gap_all_views);
+    return solve(view, open, {blobs_of(open, Neighbors::Corners), 1, options}, progress, layers);
+  }
+
+  // Likewise, from what became of the rays in a view that was solved.
+  SimplexResult follow(const SolvedView& first, ViewIndex view,
+                       ImageView<const std::uint8_t> changed, const Progress& progress,
+                       ImageView<std::int32_t> layers) {
+    const Image<std::uint8_t> open = take_over(first, view, changed, layers);
+    auto options = simplex_options(parameters_, parameters_.gap_all_views);
+    // Small problems that begin near their solution need few iterations.
+    options.racing_iterations = 0;
+    return solve(view, open, {tiles_of(open), 0.3F, options}, progress, layers);
   }
 
  private:
-  SimplexResult solve(ViewIndex view, Part part, const Progress& progress,
+  // What is solved, and how much more than the cheapest label of a pixel one may cost that comes
+  // into question.
+  struct Task {
+    std::vector<Blob> blobs;
+    float little = 0;
+    SimplexOptions options;
+  };
+  SimplexResult solve(ViewIndex view, const Image<std::uint8_t>& open, const Task& task,
+                      const Progress& progress, ImageView<std::int32_t> layers);
+  SimplexResult solve(Part part, const Task& task, const Progress& progress,
                       ImageView<std::int32_t> layers);
-  [[nodiscard]] Volume<float> costs_of(ViewIndex view, const Part& part);
-  void add_rays(ViewIndex view, ViewIndex other, int y, const Part& part, VolumeView<float> costs,
-                std::vector<float>& weights);
-  [[nodiscard]] Volume<float> chosen_costs(VolumeView<const float> all, Part& part,
+  [[nodiscard]] Image<std::int32_t> find_rays(ViewIndex view, ViewIndex other,
+                                              const Image<std::uint8_t>& wanted);
+  Image<std::uint8_t> take_over(const SolvedView& first, ViewIndex view,
+                                ImageView<const std::uint8_t> changed,
+                                ImageView<std::int32_t> layers);
+  [[nodiscard]] Volume<float> chosen_costs(float little, Part& part,
                                            ImageView<const std::int32_t> layers) const;
 
   const RayLabelingInput& input_;
   const RayLabelingParameters& parameters_;
   const RayColors& colors_;
   CostTable table_;
+  Volume<float> costs_;
   std::vector<std::int32_t> targets_;
   std::vector<float> trusts_;
 };
 
-void ViewCorrector::add_rays(ViewIndex view, ViewIndex other, int y, const Part& part,
-                             VolumeView<float> costs, std::vector<float>& weights) {
-  const VolumeView<const std::uint8_t> there = input_.probabilities->view(other).view();
-  // Rays are found for as many columns at once at least.
-  const int begin = std::max(std::min(part.rect.x0, there.width - kRayColumns), 0);
-  const ColumnRange columns{begin,
-                            std::min(std::max(part.rect.x1, begin + kRayColumns), there.width)};
-  find_ray_targets(input_.disparity->view(view), input_.disparity->view(other),
-                   {other.v - view.v, other.u - view.u}, y, columns, targets_.data());
-  colors_.trusts(colors_.pair(view, y, other), columns, targets_.data(), trusts_.data());
-  for (int x = part.rect.x0; x < part.rect.x1; ++x) {
-    const float trust = targets_[x] < 0 ? 0.0F : trusts_[x];
-    if (trust <= 0) continue;
-    const int at_y = targets_[x] / there.width, at_x = targets_[x] % there.width;
-    weights[static_cast<std::size_t>(x - part.rect.x0)] += trust;
-    for (int l = 0; l < there.layers; ++l) {
-      costs.row(y - part.rect.y0, l)[x - part.rect.x0] += trust * table_[there.row(at_y, l)[at_x]];
-    }
-  }
-}
-
-// As fill_track_costs.
-Volume<float> ViewCorrector::costs_of(ViewIndex view, const Part& part) {
-  const LabelProbabilities& p = *input_.probabilities;
-  const VolumeView<const std::uint8_t> own = p.view(view).view();
-  const std::vector<ViewIndex> others = near_views({p.first, p.grid}, view);
-  Volume<float> costs(part.height(), own.layers, part.width());
-  std::vector<float> weights;
-  for (int y = part.rect.y0; y < part.rect.y1; ++y) {
-    weights.assign(static_cast<std::size_t>(part.width()), 1.0F);
-    for (int l = 0; l < own.layers; ++l) {
-      for (int x = 0; x < part.width(); ++x) {
-        costs.view().at(y - part.rect.y0, l, x) = table_[own.row(y, l)[x + part.rect.x0]];
+// Where the wanted rays of a view arrive in another one, y·width + x; −1 = not known.
+Image<std::int32_t> ViewCorrector::find_rays(ViewIndex view, ViewIndex other,
+                                             const Image<std::uint8_t>& wanted) {
+  Image<std::int32_t> rays(wanted.height(), wanted.width());
+  const ViewIndex step{other.v - view.v, other.u - view.u};
+  for (int y = 0; y < rays.height(); ++y) {
+    std::fill_n(rays.row(y), rays.width(), -1);
+    for (const ColumnRange columns : marked_columns(wanted.row(y), rays.width())) {
+      find_ray_targets(input_.disparity->view(view), input_.disparity->view(other), step, y,
+                       columns, targets_.data());
+      colors_.trusts(colors_.pair(view, y, other), columns, targets_.data(), trusts_.data());
+      for (int x = columns.begin; x < columns.end; ++x) {
+        if (targets_[x] >= 0 && trusts_[x] >= kLeastTrust) rays.at(y, x) = targets_[x];
       }
     }
-    for (const ViewIndex other : others) {
-      if (input_.disparity->contains(other)) add_rays(view, other, y, part, costs.view(), weights);
-    }
-    for (int l = 0; l < own.layers; ++l) {
-      float* const row = costs.view().row(y - part.rect.y0, l);
-      std::transform(row, row + part.width(), weights.begin(), row, std::divides());
+  }
+  return rays;
+}
+
+// Pixels near those whose label has changed in the first view take its labels. Marks those of them
+// that lie near a boundary then, or whose points it does not see.
+Image<std::uint8_t> ViewCorrector::take_over(const SolvedView& first, ViewIndex view,
+                                             ImageView<const std::uint8_t> changed,
+                                             ImageView<std::int32_t> layers) {
+  Image<std::uint8_t> open = around(changed, kReach_px);
+  const Image<std::int32_t> rays = find_rays(view, first.view, open);
+  Image<std::uint8_t> news(layers.height, layers.width), boundaries(layers.height, layers.width);
+  std::transform(rays.begin(), rays.end(), news.begin(), [&](std::int32_t ray) {
+    return ray >= 0 && first.after.data[ray] != first.before.data[ray];
+  });
+  const Image<std::uint8_t> near = around(news, kReach_px);
+  for (int y = 0; y < layers.height; ++y) {
+    std::int32_t* const row = layers.row(y);
+    for (int x = 0; x < layers.width; ++x) {
+      const std::int32_t ray = rays.at(y, x);
+      open.at(y, x) &= near.at(y, x) | (ray < 0 && changed.at(y, x));
+      if (open.at(y, x)) row[x] = ray >= 0 ? first.after.data[ray] : row[std::max(x - 1, 0)];
+      boundaries.at(y, x) =
+          row[x] != row[std::max(x - 1, 0)] || row[x] != layers.at(std::max(y - 1, 0), x);
     }
   }
-  return costs;
+  const Image<std::uint8_t> undecided = around(boundaries, kBoundary_px);
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    open.data()[i] &= undecided.data()[i] | (rays.data()[i] < 0);
+  }
+  return open;
 }
 
 // Of the labels that come into question: that held pixels have, or that cost some pixel little more
 // than its best one.
-Volume<float> ViewCorrector::chosen_costs(VolumeView<const float> all, Part& part,
+Volume<float> ViewCorrector::chosen_costs(float little, Part& part,
                                           ImageView<const std::int32_t> layers) const {
+  const VolumeView<const float> all = costs_.view();
   const int count = all.layers;
-  constexpr float kLittle = 1;
   std::vector<bool> counts(static_cast<std::size_t>(count));
   for (int y = 0; y < part.height(); ++y) {
     for (int x = 0; x < part.width(); ++x) {
-      counts[static_cast<std::size_t>(layers.at(y + part.rect.y0, x + part.rect.x0))] = true;
-      float least = all.at(y, 0, x);
-      for (int l = 1; l < count; ++l) least = std::min(least, all.at(y, l, x));
+      const PixelIndex at{y + part.rect.y0, x + part.rect.x0};
+      counts[static_cast<std::size_t>(layers.at(at.y, at.x))] = true;
+      if (!part.blob.contains(at)) continue;
+      float least = all.at(at.y, 0, at.x);
+      for (int l = 1; l < count; ++l) least = std::min(least, all.at(at.y, l, at.x));
       for (int l = 0; l < count; ++l) {
-        if (all.at(y, l, x) < least + kLittle) counts[static_cast<std::size_t>(l)] = true;
+        if (all.at(at.y, l, at.x) < least + little) counts[static_cast<std::size_t>(l)] = true;
       }
     }
   }
@@ -299,7 +348,7 @@ Volume<float> ViewCorrector::chosen_costs(VolumeView<const float> all, Part& par
       const bool is_free = part.blob.contains(at);
       for (int l = 0; l < chosen.layers(); ++l) {
         const int layer = part.layers[static_cast<std::size_t>(l)];
-        chosen.view().at(y, l, x) = is_free                          ? all.at(y, layer, x)
+        chosen.view().at(y, l, x) = is_free                          ? all.at(at.y, layer, at.x)
                                     : layers.at(at.y, at.x) == layer ? 0.0F
                                                                      : held;
       }
@@ -308,14 +357,31 @@ Volume<float> ViewCorrector::chosen_costs(VolumeView<const float> all, Part& par
   return chosen;
 }
 
-SimplexResult ViewCorrector::solve(ViewIndex view, Part part, const Progress& progress,
+SimplexResult ViewCorrector::solve(ViewIndex view, const Image<std::uint8_t>& open,
+                                   const Task& task, const Progress& progress,
                                    ImageView<std::int32_t> layers) {
-  const Volume<float> costs = chosen_costs(costs_of(view, part).view(), part, layers);
+  SimplexResult sum;
+  if (task.blobs.empty()) return sum;
+  fill_track_costs(
+      {*input_.probabilities, *input_.disparity, view, TrackViews::Near, &colors_, open}, table_,
+      progress.part(0, 0), costs_.view());
+  const Image<float> weights = boundary_weights_of(input_, view);
+  for (const Blob& blob : task.blobs) {
+    const PixelRect& own = blob.bounds;
+    const PixelRect rect{std::max(own.y0 - 1, 0), std::max(own.x0 - 1, 0),
+                         std::min(own.y1 + 1, layers.height), std::min(own.x1 + 1, layers.width)};
+    add_part(solve({blob, rect, part_of(weights, rect)}, task, progress, layers), sum);
+  }
+  return sum;
+}
+
+SimplexResult ViewCorrector::solve(Part part, const Task& task, const Progress& progress,
+                                   ImageView<std::int32_t> layers) {
+  const Volume<float> costs = chosen_costs(task.little, part, layers);
   SimplexSolver solver(part.height(), costs.layers(), part.width());
   Image<int> solved(part.height(), part.width());
   const SimplexResult result = solver.solve({costs.view(), part.weights, parameters_.smoothness},
-                                            simplex_options(parameters_, parameters_.gap_all_views),
-                                            progress, solved.view());
+                                            task.options, progress, solved.view());
   for (int y = 0; y < part.height(); ++y) {
     for (int x = 0; x < part.width(); ++x) {
       const PixelIndex at{y + part.rect.y0, x + part.rect.x0};
@@ -338,28 +404,31 @@ std::vector<ViewIndex> outwards(const LabelProbabilities& p, ViewIndex first) {
   return views;
 }
 
+// The first view does not wait for the pages of all.
+ViewStack<std::int32_t> room_for(const ViewStack<std::int32_t>& labels) {
+  return {labels.grid(), labels.height(), labels.width(), 1, labels.first(), allocate_large_zeros};
+}
+
 }  // namespace
 
 RayLabeling correct_rays(const RayLabelingInput& input, const RayLabelingParameters& parameters,
                          const RayCorrection& correction, const Progress& progress) {
   const LabelProbabilities& p = *input.probabilities;
   const ViewStack<std::int32_t>& labels = correction.labels;
-  // The first view does not wait for the pages of all.
-  const auto room = [&labels] {
-    return ViewStack<std::int32_t>(labels.grid(), labels.height(), labels.width(), 1,
-                                   labels.first(), allocate_large_zeros);
-  };
   RayLabeling result;
-  result.labels = room();
-  ViewStack<std::int32_t> before = room();
+  result.labels = room_for(labels);
+  ViewStack<std::int32_t> before = room_for(labels);
   const std::vector<ViewIndex> views = outwards(p, correction.first);
   std::vector<SimplexResult> parts(views.size());
   progress.step("views");
+  const SolvedView solved{views[0], before.view(views[0]), result.labels.view(views[0])};
   const auto correct = [&](ViewCorrector& corrector, std::size_t i, const Progress& part) {
     const ImageView<std::int32_t> layers = result.labels.view(views[i]);
     find_layers(labels.view(views[i]), p.ids, before.view(views[i]));
     std::copy_n(before.view(views[i]).data, layers.size(), layers.data);
-    parts[i] = corrector.correct(views[i], correction.changed.view(views[i]), part, layers);
+    const ImageView<const std::uint8_t> changed = correction.changed.view(views[i]);
+    parts[i] = i == 0 ? corrector.correct(views[i], changed, part, layers)
+                      : corrector.follow(solved, views[i], changed, part, layers);
     if (correction.on_view) correction.on_view(views[i], layers);
   };
   ViewCorrector first(input, parameters, correction.colors);

@@ -12,8 +12,8 @@
 
 namespace episcope {
 
-/// The same probabilities with a layer for each label of `more`, which includes `ids`; what has none
-/// gets 0.
+/// The same probabilities with a layer for each label of `more`, which includes `ids`; what has
+/// none gets 0.
 [[nodiscard]] ProbabilityMap with_layers(VolumeView<const std::uint8_t> map,
                                          const std::vector<std::int32_t>& ids,
                                          const std::vector<std::int32_t>& more);
@@ -70,11 +70,13 @@ struct RayCorrection {
 };
 
 /// Labels of all views, ids, after the probabilities of some rays have changed, as `smooth_rays`
-/// would give them: rays within kReach_px of a changed one are solved again in each view, while
-/// all others keep their labels; then rays vote again whose evidence has changed. Costs, gap and
-/// votes are those of `smooth_rays`. Energy and bound are of the parts that were solved, with what
-/// borders them held. Precondition: `input` has disparities and probabilities of all views. Throws
-/// Cancelled.
+/// would give them: in the first view, rays within kReach_px of a changed one are solved again. In
+/// each other view, rays that near take the new labels of the first view where those have changed
+/// nearby, and are solved again beside boundaries and where the first view does not see their
+/// points. All others keep their labels. Then rays vote again whose evidence has changed. Costs,
+/// gap and votes are those of `smooth_rays`. Energy and bound are of the parts that were solved,
+/// with what borders them held. Precondition: `input` has disparities and probabilities of all
+/// views. Throws Cancelled.
 [[nodiscard]] RayLabeling correct_rays(const RayLabelingInput& input,
                                        const RayLabelingParameters& parameters,
                                        const RayCorrection& correction, const Progress& progress);

@@ -10,7 +10,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <numeric>
 
 namespace episcope {
 
@@ -40,20 +42,24 @@ struct CostRow {
   std::vector<std::int32_t> targets;
   std::vector<float> trusts;  // How much each ray is trusted, 0 where it arrives nowhere,
   std::vector<float> weight;  // and of all views, by column.
+  std::vector<ColumnRange> wanted;
 };
 
 void find_rays(const TrackSources& sources, ViewIndex other, int y, CostRow& row) {
-  const auto& [probabilities, disparity, view, others, colors] = sources;
-  find_ray_targets(disparity.view(view), disparity.view(other),
-                   {other.v - view.v, other.u - view.u}, y, row.targets.data());
-  const int width = static_cast<int>(row.targets.size());
-  if (colors != nullptr) {
-    colors->trusts(colors->pair(view, y, other), {0, width}, row.targets.data(), row.trusts.data());
-  } else {
-    std::ranges::transform(row.targets, row.trusts.begin(),
-                           [](std::int32_t target) { return target < 0 ? 0.0F : 1.0F; });
+  const RayColors* const colors = sources.colors;
+  for (const ColumnRange columns : row.wanted) {
+    find_ray_targets(sources.disparity.view(sources.view), sources.disparity.view(other),
+                     {other.v - sources.view.v, other.u - sources.view.u}, y, columns,
+                     row.targets.data());
+    if (colors != nullptr) {
+      colors->trusts(colors->pair(sources.view, y, other), columns, row.targets.data(),
+                     row.trusts.data());
+    }
+    for (int x = columns.begin; x < columns.end; ++x) {
+      if (colors == nullptr) row.trusts[x] = row.targets[x] < 0 ? 0.0F : 1.0F;
+      row.weight[x] += row.trusts[x];
+    }
   }
-  for (int x = 0; x < width; ++x) row.weight[x] += row.trusts[x];
 }
 
 void add_view(VolumeView<const std::uint8_t> p, const CostTable& table, const CostRow& row,
@@ -92,6 +98,10 @@ bool is_asked(const TrackSources& sources, ViewIndex other) {
 void fill_row(const TrackSources& sources, const CostTable& table, VolumeView<float> costs, int y,
               CostRow& row) {
   const LabelProbabilities& probabilities = sources.probabilities;
+  row.wanted = {{0, costs.width}};
+  if (!sources.wanted.empty()) row.wanted = marked_columns(sources.wanted.row(y), costs.width);
+  if (row.wanted.empty()) return;
+  std::ranges::fill(row.trusts, 0.0F);
   const std::uint8_t* const own = probabilities.view(sources.view).view().row(y, 0);
   float* const sums = costs.row(y, 0);
   std::transform(own, own + static_cast<std::ptrdiff_t>(costs.layers) * costs.width, sums,
@@ -110,6 +120,24 @@ void fill_row(const TrackSources& sources, const CostTable& table, VolumeView<fl
 }
 
 }  // namespace
+
+std::vector<ColumnRange> marked_columns(const std::uint8_t* marks, int width) {
+  std::vector<ColumnRange> found;
+  for (int x = 0; x < width; x += kRayColumns) {
+    const int end = std::min(x + kRayColumns, width);
+    // Without an early end the compiler takes all of them at once.
+    if (std::accumulate(marks + x, marks + end, std::uint8_t{0}, std::bit_or<std::uint8_t>()) == 0)
+      continue;
+    if (found.empty() || found.back().end < x) found.push_back({x, x});
+    found.back().end = end;
+  }
+  // At the border there may be too few columns.
+  if (!found.empty()) {
+    ColumnRange& last = found.back();
+    last.begin = std::max(std::min(last.begin, last.end - kRayColumns), 0);
+  }
+  return found;
+}
 
 std::vector<ViewIndex> near_views(ViewRectangle views, ViewIndex view) {
   std::vector<ViewIndex> near;

@@ -37,6 +37,9 @@ inline constexpr int kRayColumns = 16;
 /// Finds the targets of kRayColumns columns or more; the other `targets` stay unchanged.
 void find_ray_targets(const DisparityView& from, const DisparityView& to, ViewIndex step, int y,
                       ColumnRange columns, std::int32_t* targets);
+/// The columns of a row with a mark, and some beside them: ranges of kRayColumns or more, unless
+/// the row is shorter.
+[[nodiscard]] std::vector<ColumnRange> marked_columns(const std::uint8_t* marks, int width);
 
 /// Compares the colors of two rays to decide whether they see the same scene point. Disparities are
 /// least accurate at outlines, where a ray of the neighboring object has another color. Where noise
@@ -201,6 +204,8 @@ struct TrackSources {
   ViewIndex view;
   TrackViews others = TrackViews::All;
   const RayColors* colors = nullptr;  ///< Null = all rays are trusted.
+  /// `[y][x]`, 0 = any costs will do. Empty = all are wanted.
+  ImageView<const std::uint8_t> wanted{};
 };
 
 /// Costs of the labels of one view, each the mean of the costs of the ray itself and of the rays of

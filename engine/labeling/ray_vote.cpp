@@ -74,27 +74,6 @@ void Vote::decide(ViewIndex view, int y, ColumnRange columns, VoteRow& row,
   }
 }
 
-// The next columns with a mark from `begin` on, as many at least as rays are found for at once;
-// empty if there are none.
-ColumnRange next_marked(const std::uint8_t* marks, int begin, int width) {
-  const auto is_marked = [marks](int from, int to) {
-    return std::any_of(marks + from, marks + to, [](std::uint8_t mark) { return mark != 0; });
-  };
-  ColumnRange found{width, width};
-  for (int x = begin; x < width; x += kRayColumns) {
-    const int end = std::min(x + kRayColumns, width);
-    if (is_marked(x, end)) {
-      if (found.begin == width) found.begin = x;
-      found.end = end;
-    } else if (found.begin < width) {
-      break;
-    }
-  }
-  if (found.begin < width)
-    found.begin = std::max(std::min(found.begin, found.end - kRayColumns), 0);
-  return found;
-}
-
 // Calls `work(view, y, room)` for each row of each view.
 template <class Work>
 void for_rows(const ViewStack<std::int32_t>& labels, int label_count, const Progress& progress,
@@ -131,9 +110,7 @@ ViewStack<std::int32_t> vote_again_along_rays(const ViewStack<std::int32_t>& bef
   const int width = labels.width();
   ViewStack<std::int32_t> decided = labels.clone();
   for_rows(labels, votes.label_count, progress, [&](ViewIndex view, int y, VoteRow& row) {
-    const std::uint8_t* const marked = marks.view(view).row(y);
-    for (ColumnRange columns = next_marked(marked, 0, width); columns.begin < width;
-         columns = next_marked(marked, columns.end, width)) {
+    for (const ColumnRange columns : marked_columns(marks.view(view).row(y), width)) {
       vote.decide(view, y, columns, row, decided.view(view).row(y));
     }
   });
