@@ -307,6 +307,11 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
      "grey levels, with its values times {:.4g} by {:.2f}; if they are of another unit, convert "
      "the map to .pfm with --map-scale {:.4g}.",
      "The unit of %1 is in doubt."},
+    {"units.offset",
+     "No known unit explains the views well with {}: taken for {}, the next views differ by {:.2f} "
+     "grey levels, with its values times {:.4g} plus {:.3g} px by {:.2f}; if they are normalized "
+     "or lack a constant, undo that: no option does.",
+     "%1 is normalized or lacks a constant."},
     {"units.warp", "mean grey error of neighboring views after warping {}, unwarped {}"},
     {"units.warp_stored",
      "mean grey error of neighboring views after warping {}, unwarped {}, with the values as "
