@@ -148,6 +148,11 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
      "Float samples of the views should lie in 0 … 1, but lie in {:.4g} … {:.4g}: {:.4g} … {:.4g} "
      "is taken as black to white ({}). --levels states other values.",
      "Black is taken at %3, white at %4"},
+    {"samples.disparity",
+     "These look like disparity maps of all views, since their values are no colors: if so, put "
+     "disparity into the name of the file, which is read as a result then, or evaluate {} as it is "
+     "with --truth INPUT.",
+     "These look like disparity maps of all views"},
     {"samples.normalized", "normalized in some way: 0.1 % of them are darker, 0.1 % brighter"},
     {"samples.unit", "-1 for black, 1 for white"},
     {"samples.shifted_bytes", "bytes less 128"},

@@ -3244,6 +3244,14 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>In dieser Datei gibt es eine Kategorie 0: alle Labels sind um eins erhöht, sodass 0 keines bedeutet.</translation>
     </message>
     <message>
+        <source>These look like disparity maps of all views</source>
+        <translation>Das sieht nach Disparitätskarten aller Ansichten aus</translation>
+    </message>
+    <message>
+        <source>These look like disparity maps of all views, since their values are no colors: if so, put disparity into the name of the file, which is read as a result then, or evaluate %1 as it is with --truth INPUT.</source>
+        <translation>Das sieht nach Disparitätskarten aller Ansichten aus, denn die Werte sind keine Farben: wenn ja, disparity in den Namen der Datei setzen, die dann als Ergebnis gelesen wird, oder %1 so, wie sie ist, mit evaluate und --truth EINGABE beurteilen.</translation>
+    </message>
+    <message>
         <source>contrast at their edges %1 grey levels, as stored %2</source>
         <translation>Kontrast an ihren Kanten %1 Graustufen, wie gespeichert %2</translation>
     </message>
