@@ -84,10 +84,12 @@ int Session::add_estimate(EstimatePtr estimate, Interval display_range, std::uin
 }
 
 bool Session::is_comparing(const OpenScene& scene) const {
+  const bool has_live = &scene == now_ && live();
+  if (scene.estimates.empty() && !has_live) return false;
   const Comparison& comparison = scene.place.comparison;
-  const std::size_t tried = &scene == now_ && live() ? 1 : 0;
-  return scene.estimates.size() + tried > 1 &&
-         (comparison.mode != CompareMode::Single || comparison.shows_difference);
+  const bool is_b_chosen = scene.is_compared_chosen &&
+                           std::ranges::count(scene.estimates, scene.compared, &EstimateEntry::id);
+  return is_b_chosen || comparison.mode != CompareMode::Single || comparison.shows_difference;
 }
 
 void Session::remove_estimate(int id) {
@@ -214,7 +216,7 @@ void Session::compare_with(int id) {
 const EstimateEntry* Session::compared() const {
   if (const EstimateEntry* chosen = find_estimate(now_->compared)) return chosen;
   for (const EstimateEntry& entry : now_->estimates) {
-    if (entry.id != now_->shown) return &entry;
+    if (entry.id != now_->shown && !entry.is_new) return &entry;
   }
   return nullptr;
 }

@@ -77,8 +77,9 @@ class Session {
   /// OpenScene::id: what was begun under another one belongs to another light field.
   [[nodiscard]] std::uint64_t generation() const { return now_->id; }
 
-  /// Adds an estimate to the open scene of this id and shows it there, unless two others are being
-  /// compared: it then is marked as new until it is chosen. Returns its id, or 0 if that scene was
+  /// Adds an estimate to the open scene of this id and shows it there, unless another is being
+  /// compared: with one that was chosen for it, or in a mode that shows two sides, be it with the
+  /// truth. It then is marked as new until it is chosen. Returns its id, or 0 if that scene was
   /// closed: the estimate is dropped.
   int add_estimate(EstimatePtr estimate, Interval display_range, std::uint64_t generation);
   /// Shows the neighbor if the removed one was shown. Unknown ids are ignored.
@@ -106,8 +107,8 @@ class Session {
   /// Chooses what the shown estimate is compared with; it stays until another one is chosen, it is
   /// shown itself or removed. Unknown ids are ignored. Comparing the shown one swaps the two.
   void compare_with(int id);
-  /// The estimate to compare with: the one chosen, else the one shown before, else any other; null
-  /// if there is no other.
+  /// The estimate to compare with: the one chosen, else the one shown before, else any other that
+  /// is not new; null if there is no other.
   [[nodiscard]] const EstimateEntry* compared() const;
 
   /// Puts an estimate before the shown one while parameters are tried: it is in no list and in no
@@ -236,7 +237,7 @@ class Session {
   [[nodiscard]] OpenScene* open_scene(std::uint64_t id) const;
   /// Null for an unknown id.
   [[nodiscard]] EstimateEntry* entry_of_any_scene(int id) const;
-  /// Whether two results of the scene are on screen together.
+  /// Whether a result of the scene is being compared.
   [[nodiscard]] bool is_comparing(const OpenScene& scene) const;
   /// The user has chosen it.
   void see(EstimateEntry& entry);

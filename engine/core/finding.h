@@ -148,6 +148,11 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
      "Float samples of the views should lie in 0 … 1, but lie in {:.4g} … {:.4g}: {:.4g} … {:.4g} "
      "is taken as black to white ({}). --levels states other values.",
      "Black is taken at %3, white at %4"},
+    {"samples.disparity",
+     "These look like disparity maps of all views, since their values are no colors: if so, put "
+     "disparity into the name of the file, which is read as a result then, or evaluate {} as it is "
+     "with --truth INPUT.",
+     "These look like disparity maps of all views"},
     {"samples.normalized", "normalized in some way: 0.1 % of them are darker, 0.1 % brighter"},
     {"samples.unit", "-1 for black, 1 for white"},
     {"samples.shifted_bytes", "bytes less 128"},
@@ -307,6 +312,11 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
      "grey levels, with its values times {:.4g} by {:.2f}; if they are of another unit, convert "
      "the map to .pfm with --map-scale {:.4g}.",
      "The unit of %1 is in doubt."},
+    {"units.offset",
+     "No known unit explains the views well with {}: taken for {}, the next views differ by {:.2f} "
+     "grey levels, with its values times {:.4g} plus {:.3g} px by {:.2f}; if they are normalized "
+     "or lack a constant, undo that: no option does.",
+     "%1 is normalized or lacks a constant."},
     {"units.warp", "mean grey error of neighboring views after warping {}, unwarped {}"},
     {"units.warp_stored",
      "mean grey error of neighboring views after warping {}, unwarped {}, with the values as "

@@ -3204,12 +3204,20 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>im Mittel %1 px neben der Karte der mittleren Ansicht, wie gespeichert %2 px</translation>
     </message>
     <message>
+        <source>%1 is normalized or lacks a constant.</source>
+        <translation>%1 ist normiert oder ohne eine Konstante.</translation>
+    </message>
+    <message>
         <source>%1 were turned.</source>
         <translation>%1 wurden gedreht.</translation>
     </message>
     <message>
         <source>%1 with %2×%3 px lie on their side beside views of %4×%5 px: rows and columns were exchanged.</source>
         <translation>%1 mit %2×%3 px liegen neben Ansichten von %4×%5 px auf der Seite: Zeilen und Spalten wurden vertauscht.</translation>
+    </message>
+    <message>
+        <source>No known unit explains the views well with %1: taken for %2, the next views differ by %3 grey levels, with its values times %4 plus %5 px by %6; if they are normalized or lack a constant, undo that: no option does.</source>
+        <translation>Keine bekannte Einheit erklärt mit %1 die Ansichten gut: als %2 unterscheiden sich die nächsten Ansichten um %3 Graustufen, mit den Werten mal %4 plus %5 px um %6; sind sie normiert oder fehlt ihnen eine Konstante, das rückgängig machen: keine Option tut es.</translation>
     </message>
     <message>
         <source>No known unit explains the views well with %1: taken for %2, the next views differ by %3 grey levels, with its values times %4 by %5; if they are of another unit, convert the map to .pfm with --map-scale %6.</source>
@@ -3234,6 +3242,14 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>There is a category 0 in this file: all labels are raised by one, so that 0 means none.</source>
         <translation>In dieser Datei gibt es eine Kategorie 0: alle Labels sind um eins erhöht, sodass 0 keines bedeutet.</translation>
+    </message>
+    <message>
+        <source>These look like disparity maps of all views</source>
+        <translation>Das sieht nach Disparitätskarten aller Ansichten aus</translation>
+    </message>
+    <message>
+        <source>These look like disparity maps of all views, since their values are no colors: if so, put disparity into the name of the file, which is read as a result then, or evaluate %1 as it is with --truth INPUT.</source>
+        <translation>Das sieht nach Disparitätskarten aller Ansichten aus, denn die Werte sind keine Farben: wenn ja, disparity in den Namen der Datei setzen, die dann als Ergebnis gelesen wird, oder %1 so, wie sie ist, mit evaluate und --truth EINGABE beurteilen.</translation>
     </message>
     <message>
         <source>contrast at their edges %1 grey levels, as stored %2</source>

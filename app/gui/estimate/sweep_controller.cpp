@@ -383,6 +383,7 @@ void SweepController::showMap(SweepPlace place, const EstimatePtr& map) {
   Session& session = bench_.session;
   const SweepPoint& point = *bench_.scenes.sweeps().find(current_, place);
   const int id = session.add_estimate(map, point.display_range, session.generation());
+  session.show_estimate(id);  // it was asked for
   session.rename_estimate(id, name_of(*current(), point));
   shown_[session.generation()] = {id, session.find_estimate(id)->name};
   bench_.overlay.showResults();

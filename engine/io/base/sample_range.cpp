@@ -120,6 +120,7 @@ void settle_range(LightField::Samples& samples, const std::string& levels,
 namespace {
 
 constexpr float kMaxUnitSample = 1.5F;
+constexpr float kLargestDisparity = 64;
 constexpr float kMaxByteSample = 255.5F;
 // Of samples around 0: share of the amplitude below which a sample is negative, not one that a
 // filter made overshoot, and the share of all samples that are.
@@ -270,6 +271,17 @@ void scale_float_samples(LightField::Samples& samples, ConventionReport& report)
                                std::bit_width(static_cast<unsigned>(divisor)), divisor);
   report.warnings.push_back(
       fmt::format(finding_text("samples.divided"), std::lround(largest), divisor));
+}
+
+bool can_be_disparity(const LightField::Samples& samples) {
+  const auto* const stack = std::get_if<ViewStack<float>>(&samples);
+  if (!stack || stack->channels() > 1 || stack->grid().count() < 2) return false;
+  const auto [smallest, largest] = extremes_of(*stack);
+  if (std::max(largest, -smallest) > kLargestDisparity) return false;
+  const FloatSpread spread = spread_of(*stack, smallest, largest);
+  if (spread.whole_share >= kMostlyWhole) return false;
+  const bool is_signed = spread.negative_share >= kFewestNegative && !is_noise_around_black(spread);
+  return is_signed || largest > kMaxUnitSample;
 }
 
 ViewStack<std::uint8_t> all_valid(GridShape grid, int height, int width) {

@@ -38,6 +38,10 @@ void settle_range(LightField::Samples& samples, const std::string& levels,
 /// million samples are looked at. Integers stay as they are.
 void scale_float_samples(LightField::Samples& samples, ConventionReport& report);
 
+/// Whether views are rather disparity maps: floats of one channel, clearly negative or above 1.5
+/// and not whole, but none beyond 64.
+[[nodiscard]] bool can_be_disparity(const LightField::Samples& samples);
+
 /// A mask of pixels, all of them valid (1).
 [[nodiscard]] ViewStack<std::uint8_t> all_valid(GridShape grid, int height, int width);
 

@@ -14,6 +14,7 @@
 #include "engine/io/models/choose_layout.h"
 #include "engine/io/models/load_views.h"
 #include "engine/io/models/open_options.h"
+#include "engine/io/models/order/motion_pictures.h"
 #include "engine/io/models/order/warp_check.h"
 
 #include <fmt/format.h>

@@ -2,6 +2,7 @@
 #include "engine/io/models/order/line_matches.h"
 
 #include "engine/core/image.h"
+#include "engine/io/models/order/motion_pictures.h"
 #include "engine/io/models/order/warp_check.h"
 
 #include <algorithm>

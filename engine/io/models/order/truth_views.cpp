@@ -3,6 +3,7 @@
 
 #include "engine/core/finding.h"
 #include "engine/io/models/order/view_axes.h"
+#include "engine/io/models/order/motion_pictures.h"
 #include "engine/io/models/order/warp_check.h"
 
 #include <fmt/format.h>

@@ -9,6 +9,7 @@
 #include "engine/core/text_table.h"
 #include "engine/io/models/open_options.h"
 #include "engine/io/models/order/line_matches.h"
+#include "engine/io/models/order/warp_check.h"
 
 #include <fmt/format.h>
 

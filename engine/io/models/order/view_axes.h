@@ -6,7 +6,7 @@
 #include "engine/core/progress.h"
 #include "engine/core/scene.h"
 #include "engine/core/view_stack.h"
-#include "engine/io/models/order/warp_check.h"
+#include "engine/io/models/order/motion_pictures.h"
 
 #include <algorithm>
 #include <array>

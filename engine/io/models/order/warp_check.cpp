@@ -2,9 +2,12 @@
 #include "engine/io/models/order/warp_check.h"
 
 #include "engine/core/numbers.h"
+#include "engine/io/models/order/motion_pictures.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <utility>
@@ -344,28 +347,22 @@ double range_of(const std::vector<MapPoint>& points) {
   return quantile(values, 0.95) - quantile(values, 0.05);
 }
 
-/// By how much the map is better than a constant in a square.
+/// By how much one map is better than another in a square.
 struct Sum {
   double better = 0;
   int points = 0;
 };
 using Squares = std::map<std::pair<int, int>, Sum>;
 
-/// One disparity for all, and how far a map is from it that differs.
-struct Constant {
-  double disparity = 0;
-  double differs = 0;
-};
-
-void add_pair(const WarpedPair& pair, const std::vector<MapPoint>& points, const Constant& constant,
-              Squares& squares) {
+template <class One, class Other>
+void add_pair(const WarpedPair& pair, const std::vector<MapPoint>& points, const One& one,
+              const Other& other, Squares& squares) {
   for (const MapPoint& point : points) {
-    if (std::abs(point.disparity - constant.disparity) < constant.differs) continue;
-    const float by_map = pair.error(point, point.disparity);
-    const float by_constant = pair.error(point, constant.disparity);
-    if (by_map < 0 || by_constant < 0) continue;
+    const float by_one = pair.error(point, one(point));
+    const float by_other = pair.error(point, other(point));
+    if (by_one < 0 || by_other < 0) continue;
     Sum& sum = squares[{point.y / kConstantSquare, point.x / kConstantSquare}];
-    sum.better += by_constant - by_map;
+    sum.better += by_other - by_one;
     ++sum.points;
   }
 }
@@ -406,166 +403,172 @@ ConstantComparison compare_with_constant(const LightField::Samples& samples, Vie
     std::vector<WarpedPair> pairs = pairs_of(samples, at, here, errors, is_u);
     for (WarpedPair& pair : pairs) pair.even_out(points);
     const double constant = best_constant(pairs, points);
-    for (const WarpedPair& pair : pairs) add_pair(pair, points, {constant, differs}, squares);
+    std::vector<MapPoint> apart;
+    std::ranges::copy_if(points, std::back_inserter(apart), [=](const MapPoint& point) {
+      return std::abs(point.disparity - constant) >= differs;
+    });
+    for (const WarpedPair& pair : pairs) {
+      add_pair(
+          pair, apart, [](const MapPoint& point) { return point.disparity; },
+          [=](const MapPoint&) { return constant; }, squares);
+    }
   }
   return compared(squares);
 }
 
-std::vector<double> errors_of_factors(const LightField::Samples& samples, ViewIndex at,
-                                      const DisparityView& map,
-                                      const std::vector<double>& factors) {
-  const std::vector<MapPoint> points = spread_points(map);
-  const Image<float> here = picture_of(samples, at);
-  std::vector<double> errors(factors.size(), 0);
-  int axes = 0;
-  for (const bool is_u : {true, false}) {
-    const std::vector<WarpedPair> pairs = pairs_of(samples, at, here, {}, is_u);
-    if (pairs.empty()) continue;
-    ++axes;
-    for (std::size_t i = 0; i < factors.size(); ++i) {
-      const auto error = [&](double factor) {
-        return mean_error(pairs, points,
-                          [=](const MapPoint& point) { return factor * point.disparity; });
+namespace {
+
+/// Factors that are tried: up to 64 times as much or as little, and what differs more than
+/// slightly.
+constexpr int kFactorSteps = 48;
+constexpr double kFactorsPerOctave = 8;
+constexpr double kOtherFactor = 0.2;
+/// Largest share of the error that another meaning may leave, and standard deviations of chance.
+constexpr double kClearFactor = 0.85;
+constexpr double kClearOffset = 0.8;
+constexpr double kSignificantUnit = 4;
+/// A map that explains views this well lacks no offset.
+constexpr double kNoOffset = 0.5;
+/// With an offset: the range of the map, px, from 1/8 to 32 in thirds of octaves, and its median.
+constexpr int kFirstThird = -9, kLastThird = 15;
+constexpr double kMedianStep = 0.25, kLargestMedian = 8;
+constexpr std::size_t kCoarsePoints = 600;
+constexpr int kRefinements = 4;
+
+/// Numbers of a map times `factor`, plus `offset`.
+struct Meaning {
+  double factor = 1;
+  double offset = 0;
+  [[nodiscard]] double operator()(const MapPoint& point) const {
+    return factor * point.disparity + offset;
+  }
+  [[nodiscard]] Meaning negated() const { return {-factor, -offset}; }
+};
+
+using Points = std::vector<MapPoint>;
+
+/// The neighbors of a view along both axes, each in the order that suits a meaning better.
+class Neighbors {
+ public:
+  Neighbors(const LightField::Samples& samples, ViewIndex at) : here_(picture_of(samples, at)) {
+    for (const bool is_u : {true, false}) {
+      auto pairs = pairs_of(samples, at, here_, {}, is_u);
+      if (!pairs.empty()) axes_.push_back(std::move(pairs));
+    }
+  }
+
+  [[nodiscard]] double error(const Points& points, const Meaning& meaning) const {
+    double sum = 0;
+    for (const auto& pairs : axes_) {
+      sum += std::min(mean_error(pairs, points, meaning),
+                      mean_error(pairs, points, meaning.negated()));
+    }
+    return axes_.empty() ? HUGE_VAL : sum / static_cast<double>(axes_.size());
+  }
+
+  /// Whether one meaning is better than another by more than chance.
+  [[nodiscard]] bool is_better(const Points& points, const Meaning& one,
+                               const Meaning& other) const {
+    Squares squares;
+    for (const auto& pairs : axes_) {
+      const auto ordered = [&](const Meaning& meaning) {
+        const Meaning reversed = meaning.negated();
+        return mean_error(pairs, points, meaning) <= mean_error(pairs, points, reversed) ? meaning
+                                                                                         : reversed;
       };
-      errors[i] += std::min(error(factors[i]), error(-factors[i]));
-    }
-  }
-  for (double& error : errors) error /= std::max(axes, 1);
-  return errors;
-}
-
-namespace {
-
-std::vector<float> gaussian(double sigma) {
-  const int radius = static_cast<int>(std::ceil(3 * sigma));
-  std::vector<float> kernel(static_cast<std::size_t>(2 * radius + 1));
-  float sum = 0;
-  for (int i = -radius; i <= radius; ++i) {
-    const auto weight = static_cast<float>(std::exp(-0.5 * i * i / (sigma * sigma)));
-    kernel[static_cast<std::size_t>(i + radius)] = weight;
-    sum += weight;
-  }
-  for (float& weight : kernel) weight /= sum;
-  return kernel;
-}
-
-/// Blurs the rows, with the border repeated, and transposes.
-Image<float> blurred_and_transposed(const Image<float>& picture, const std::vector<float>& kernel) {
-  const int width = picture.width();
-  const int radius = static_cast<int>(kernel.size() / 2);
-  Image<float> out(width, picture.height());
-  std::vector<float> row(static_cast<std::size_t>(width + 2 * radius));
-  for (int y = 0; y < picture.height(); ++y) {
-    for (int i = 0; i < width + 2 * radius; ++i) {
-      row[static_cast<std::size_t>(i)] = picture.at(y, std::clamp(i - radius, 0, width - 1));
-    }
-    for (int x = 0; x < width; ++x) {
-      float sum = 0;
-      for (std::size_t k = 0; k < kernel.size(); ++k) {
-        sum += kernel[k] * row[static_cast<std::size_t>(x) + k];
+      for (const WarpedPair& pair : pairs) {
+        add_pair(pair, points, ordered(one), ordered(other), squares);
       }
-      out.at(x, y) = sum;
     }
+    const ConstantComparison comparison = compared(squares);
+    return comparison.is_told() && comparison.score > kSignificantUnit;
   }
-  return out;
+
+ private:
+  Image<float> here_;
+  std::vector<std::vector<WarpedPair>> axes_;
+};
+
+struct Candidate {
+  Meaning meaning;
+  double error = HUGE_VAL;
+  void take(const Neighbors& neighbors, const Points& points, const Meaning& other) {
+    const double its = neighbors.error(points, other);
+    if (its < error) *this = {other, its};
+  }
+};
+
+Candidate best_factor(const Neighbors& neighbors, const Points& points, double factor) {
+  Candidate best;
+  for (int step = -kFactorSteps; step <= kFactorSteps; ++step) {
+    best.take(neighbors, points, {factor * std::exp2(step / kFactorsPerOctave)});
+  }
+  double ratio = std::exp2(0.5 / kFactorsPerOctave);
+  for (int i = 0; i < kRefinements; ++i, ratio = std::sqrt(ratio)) {
+    const double middle = best.meaning.factor;
+    for (const double by : {1 / ratio, ratio}) best.take(neighbors, points, {by * middle});
+  }
+  return best;
 }
 
-Image<float> blurred(const Image<float>& picture, double sigma) {
-  const std::vector<float> kernel = gaussian(sigma);
-  return blurred_and_transposed(blurred_and_transposed(picture, kernel), kernel);
+/// Precondition: the range of the map is not 0.
+Candidate best_with_offset(const Neighbors& neighbors, const Points& points) {
+  std::vector<float> values;
+  for (const MapPoint& point : points) values.push_back(static_cast<float>(point.disparity));
+  const double middle = quantile(values, 0.5);
+  const double range = range_of(points);
+  Points few;
+  const std::size_t stride = points.size() / kCoarsePoints + 1;
+  for (std::size_t i = 0; i < points.size(); i += stride) few.push_back(points[i]);
+  const auto meaning = [&](double factor, double median) {
+    return Meaning{factor, median - factor * middle};
+  };
+  Candidate best;
+  for (int third = kFirstThird; third <= kLastThird; ++third) {
+    const double factor = std::exp2(third / 3.0) / range;
+    for (double at = -kLargestMedian; at <= kLargestMedian; at += kMedianStep) {
+      best.take(neighbors, few, meaning(factor, at));
+    }
+  }
+  best.error = neighbors.error(points, best.meaning);
+  double ratio = std::exp2(1 / 6.0), step = kMedianStep / 2;
+  for (int i = 0; i < kRefinements; ++i, ratio = std::sqrt(ratio), step /= 2) {
+    const double factor = best.meaning.factor;
+    const double median = factor * middle + best.meaning.offset;
+    for (const double by : {1 / ratio, 1.0, ratio}) {
+      for (const double more : {-step, 0.0, step}) {
+        best.take(neighbors, points, meaning(by * factor, median + more));
+      }
+    }
+  }
+  return best;
 }
 
 }  // namespace
 
-Image<float> middle_of(const Image<float>& picture, int side) {
-  const int height = std::min(picture.height(), side);
-  const int width = std::min(picture.width(), side);
-  const int top = (picture.height() - height) / 2;
-  const int left = (picture.width() - width) / 2;
-  Image<float> part(height, width);
-  for (int y = 0; y < height; ++y) {
-    std::copy_n(picture.row(top + y) + left, width, part.row(y));
+std::optional<BetterUnit> find_better_unit(const LightField::Samples& samples, ViewIndex at,
+                                           const DisparityView& map, double factor) {
+  const Neighbors neighbors(samples, at);
+  const Points points = spread_points(map);
+  Candidate taken{{factor}, neighbors.error(points, {factor})};
+  const double as_taken = std::min<double>(taken.error, kLargestConstantError);
+  const double unwarped = neighbors.error(points, {0});
+  taken.take(neighbors, points, {0});
+  const Candidate scaled = best_factor(neighbors, points, factor);
+  const auto found = [&](const Candidate& better) {
+    return BetterUnit{better.meaning.factor, better.meaning.offset, better.error, as_taken};
+  };
+  const bool is_other = std::abs(std::log2(scaled.meaning.factor / factor)) > kOtherFactor;
+  if (is_other && scaled.error < kClearFactor * taken.error &&
+      neighbors.is_better(points, scaled.meaning, taken.meaning)) {
+    return found(scaled);
   }
-  return part;
-}
-
-int reduction(int larger, int side) {
-  return std::max((larger + side - 1) / side, 1);
-}
-
-Image<float> reduced(const Image<float>& picture, int side) {
-  return reduced_by(picture, reduction(std::max(picture.height(), picture.width()), side));
-}
-
-Image<float> reduced_by(const Image<float>& picture, int k) {
-  Image<float> small(std::max(picture.height() / k, 1), std::max(picture.width() / k, 1));
-  for (int y = 0; y < small.height(); ++y) {
-    for (int x = 0; x < small.width(); ++x) {
-      float sum = 0;
-      int count = 0;
-      for (int j = y * k; j < std::min((y + 1) * k, picture.height()); ++j) {
-        for (int i = x * k; i < std::min((x + 1) * k, picture.width()); ++i, ++count) {
-          sum += picture.at(j, i);
-        }
-      }
-      small.at(y, x) = sum / static_cast<float>(count);
-    }
-  }
-  return small;
-}
-
-Image<float> smoothed(const Image<float>& picture) {
-  return blurred(picture, 0.7);
-}
-
-Image<float> band_passed(const Image<float>& picture) {
-  Image<float> fine = blurred(picture, 0.8);
-  const Image<float> coarse = blurred(picture, 4);
-  double sum = 0;
-  double squares = 0;
-  for (std::size_t i = 0; i < fine.size(); ++i) {
-    float& value = fine.data()[i];
-    value -= coarse.data()[i];
-    sum += value;
-    squares += static_cast<double>(value) * value;
-  }
-  const auto n = static_cast<double>(fine.size());
-  const double mean = sum / n;
-  const double variance = squares / n - mean * mean;
-  const double scale = variance > 1e-8 ? 1 / std::sqrt(variance) : 0;
-  for (float& value : fine) value = static_cast<float>(scale * (value - mean));
-  return fine;
-}
-
-namespace {
-
-double contrast_of(const Image<float>& picture) {
-  double sum = 0;
-  double squares = 0;
-  for (const float value : picture) {
-    sum += value;
-    squares += static_cast<double>(value) * value;
-  }
-  const auto n = static_cast<double>(std::max<std::size_t>(picture.size(), 1));
-  return std::sqrt(std::max(squares / n - sum / n * (sum / n), 0.0));
-}
-
-}  // namespace
-
-MotionPictures::MotionPictures(const Image<float>& grey) {
-  const Image<float> small = reduced(grey, 160);
-  contrast = contrast_of(small);
-  scales = {band_passed(middle_of(grey, 256)), band_passed(small), band_passed(reduced(grey, 40))};
-}
-
-double correlation(const Image<float>& a, const Image<float>& b) {
-  double sum = 0;
-  for (int y = 0; y < a.height(); ++y) {
-    float row = 0;
-    for (int x = 0; x < a.width(); ++x) row += a.at(y, x) * b.at(y, x);
-    sum += row;
-  }
-  return sum / static_cast<double>(a.size());
+  if (as_taken <= kNoOffset * unwarped || !(range_of(points) > 0)) return {};
+  if (scaled.error < taken.error) taken = scaled;
+  const Candidate moved = best_with_offset(neighbors, points);
+  const bool is_clear = moved.error < kClearOffset * taken.error &&
+                        neighbors.is_better(points, moved.meaning, taken.meaning);
+  return is_clear ? std::optional(found(moved)) : std::nullopt;
 }
 
 }  // namespace episcope::io

@@ -554,13 +554,6 @@ namespace {
 
 /// A map that explains views this well, as a share of the error without warping, is upright.
 constexpr double kPlainMap = 0.5;
-/// Largest share of the error that another factor may leave.
-constexpr double kFarBetterFactor = 0.6;
-/// Factors that are tried: up to 64 times as much or as little, and what differs more than
-/// slightly.
-constexpr int kFactorSteps = 48;
-constexpr double kFactorsPerOctave = 8;
-constexpr double kOtherFactor = 0.2;
 
 /// Before near and far are judged, which mirrored maps would get wrong.
 void put_upright(const LightField::Samples& samples, const std::vector<MapUnit>& units,
@@ -577,20 +570,17 @@ void put_upright(const LightField::Samples& samples, const std::vector<MapUnit>&
   report.warnings.push_back(turned_back_text(found->text));
 }
 
-/// Where a factor that nobody uses explains the views far better than the known units: a warning.
+/// Where other numbers than the known units explain the views clearly better: a warning.
 std::string doubt_of_unit(const LightField::Samples& samples, ViewIndex at, NamedValues values,
                           const MapUnit& unit) {
-  std::vector<double> factors{0, unit.factor};
-  for (int step = -kFactorSteps; step <= kFactorSteps; ++step) {
-    factors.push_back(unit.factor * std::exp2(step / kFactorsPerOctave));
+  const auto better = find_better_unit(samples, at, values.field.view(at), unit.factor);
+  if (!better) return {};
+  if (better->offset_px != 0) {
+    return fmt::format(finding_text("units.offset"), values.name, unit.text, better->error_as_taken,
+                       better->factor, better->offset_px, better->error);
   }
-  const auto errors = errors_of_factors(samples, at, values.field.view(at), factors);
-  const auto least = std::min_element(errors.begin() + 2, errors.end());
-  const double factor = factors[static_cast<std::size_t>(least - errors.begin())];
-  const bool is_other = std::abs(std::log2(factor / unit.factor)) > kOtherFactor;
-  if (!is_other || !(*least < kFarBetterFactor * std::min(errors[0], errors[1]))) return {};
-  return fmt::format(finding_text("units.doubt"), values.name, unit.text, errors[1], factor, *least,
-                     factor);
+  return fmt::format(finding_text("units.doubt"), values.name, unit.text, better->error_as_taken,
+                     better->factor, better->error, better->factor);
 }
 
 }  // namespace

@@ -58,6 +58,7 @@ class CompareTest : public QObject {
   void clickOnAMark_choosesB();
   void errorOfOneResult_isAgainstTheTruth();
   void chosenB_staysWhenAnotherIsShown();
+  void resultOfAJob_leavesAComparisonAlone_data();
   void resultOfAJob_leavesAComparisonAlone();
   void rowOfTheMetricTable_showsItsResult();
   void metricTable_isCopiedByKey();
@@ -228,19 +229,37 @@ void CompareTest::chosenB_staysWhenAnotherIsShown() {
   QCOMPARE(f.session().compared()->id, f.ids[1]);
 }
 
+void CompareTest::resultOfAJob_leavesAComparisonAlone_data() {
+  QTest::addColumn<int>("results");
+  QTest::addColumn<QString>("command");
+  QTest::newRow("wipe of two") << 2 << "compare.wipe";
+  QTest::newRow("wipe of one and the truth") << 1 << "compare.wipe";
+  QTest::newRow("B was chosen") << 2 << QString();
+}
+
+// Run by key.
 void CompareTest::resultOfAJob_leavesAComparisonAlone() {
-  Compared f({0.1F, 0.2F});
-  f.trigger("compare.wipe");
+  QFETCH(int, results);
+  QFETCH(QString, command);
+  Compared f(results == 1 ? std::vector{0.1F} : std::vector{0.1F, 0.2F});
+  const auto id_of = [](const EstimateEntry* entry) { return entry ? entry->id : 0; };
+  if (command.isEmpty()) {
+    f.session().compare_with(f.ids.front());
+  } else {
+    f.trigger(qPrintable(command));
+  }
+  const int a = id_of(f.session().side_a()), b = id_of(f.session().side_b());
   const auto* tree = f.window.findChild<QTreeWidget*>("results.tree");
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().commands.find("estimate.run")->isEnabled(), kPatience);
 
-  const int added = f.add(0.3F);
+  f.key(Qt::Key_F5);
 
-  QTRY_COMPARE_WITH_TIMEOUT(tree->topLevelItemCount(), 3, kPatience);
-  QCOMPARE(f.session().side_a()->id, f.ids[1]);
-  QCOMPARE(f.session().side_b()->id, f.ids[0]);
-  QCOMPARE(tree->topLevelItem(2)->text(0), QString("new"));
-  f.session().show_estimate(added);
-  QTRY_VERIFY_WITH_TIMEOUT(tree->topLevelItem(2)->text(0).isEmpty(), kPatience);
+  QTRY_COMPARE_WITH_TIMEOUT(tree->topLevelItemCount(), results + 1, kScenePatience);
+  QCOMPARE(id_of(f.session().side_a()), a);
+  QCOMPARE(id_of(f.session().side_b()), b);
+  QCOMPARE(tree->topLevelItem(results)->text(0), QString("new"));
+  f.session().show_estimate(f.session().estimates().back().id);
+  QTRY_VERIFY_WITH_TIMEOUT(tree->topLevelItem(results)->text(0).isEmpty(), kPatience);
 }
 
 void CompareTest::rowOfTheMetricTable_showsItsResult() {

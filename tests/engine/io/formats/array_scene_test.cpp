@@ -93,6 +93,29 @@ class ArraySceneTest : public QObject {
  private slots:
   void init() { folder_ = std::make_unique<QTemporaryDir>(); }
 
+  void floatsOfAllViews_areDoubtedIfTheyCannotBeColors_data() {
+    QTest::addColumn<float>("white");  // 0 = disparity
+    QTest::newRow("disparity") << 0.0F;
+    QTest::newRow("gray in 0 to 1") << 1.0F;
+    QTest::newRow("gray in 0 to 255") << 254.7F;
+  }
+  void floatsOfAllViews_areDoubtedIfTheyCannotBeColors() {
+    QFETCH(float, white);
+    const ViewStack<float>& maps = scene_.truth->field.disparity;
+    std::vector<float> values(maps.data(), maps.data() + maps.size());
+    for (std::size_t i = 0; white > 0 && i < values.size(); ++i) {
+      values[i] = static_cast<float>(views().data()[3 * i]) / 255 * white;
+    }
+    io::write_npy<float>(path("all.npy"), lengths_of(views(), "vuyx"), values);
+
+    const Scene scene = open(path("all.npy"));
+
+    const bool is_doubted = std::ranges::any_of(
+        scene.convention.warnings,
+        [](const std::string& text) { return says(text, "disparity maps of all views"); });
+    QCOMPARE(is_doubted, white == 0);
+  }
+
   void npy_isReadInAnyOrderOfAxes_data() {
     QTest::addColumn<QString>("axes");
     for (const char* axes : {"vuyxc", "cvuyx", "vucyx", "yxvuc", "cxyuv"}) {

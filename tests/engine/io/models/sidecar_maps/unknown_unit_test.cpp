@@ -14,6 +14,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <random>
 #include <vector>
 
 namespace episcope::in_unknown_unit_test {
@@ -84,6 +85,25 @@ class UnknownUnitTest : public QObject {
     options.d0 = 1.5;
     scene_ = plane_scene(options);
     write_views();
+  }
+  /// No map explains noise.
+  void use_noisy_views() {
+    use_positive_disparities();
+    ViewStack<std::uint8_t> views = bytes_of(scene_).clone();
+    std::mt19937 random(1);
+    std::normal_distribution<double> noise(0, 9);
+    std::transform(views.data(), views.data() + views.size(), views.data(), [&](std::uint8_t grey) {
+      return static_cast<std::uint8_t>(std::clamp(grey + noise(random), 0.0, 255.0));
+    });
+    scene_.light_field = std::make_shared<LightField>(std::move(views), scene_.light_field->info());
+    write_views();
+  }
+  /// Writes the disparity as numbers.
+  void write_numbers(const Number& number) const {
+    Image<float> map(disparity().height, disparity().width);
+    std::transform(disparity().data, disparity().data + disparity().size(), map.data(),
+                   [&](float d) { return static_cast<float>(number(d)); });
+    write_array("disparity.npy", map.view());
   }
   Scene open() const { return io::open_scene(path(), {}, Progress(2)); }
 
@@ -160,6 +180,44 @@ class UnknownUnitTest : public QObject {
 
     QVERIFY2(warns_of(scene, "No known unit explains the views well"),
              describe(scene.convention).c_str());
+  }
+
+  /// Hundredths explain a good part of the views, too, and noise hides what they do not.
+  void scaleNearAKnownOne_isDoubtedUnderNoise() {
+    use_noisy_views();
+    write_numbers([](double d) { return std::round(84 * d); });
+
+    const Scene scene = open();
+
+    QVERIFY2(warns_of(scene, "No known unit explains the views well"),
+             describe(scene.convention).c_str());
+    QVERIFY2(warns_of(scene, "--map-scale 0.01"), describe(scene.convention).c_str());
+  }
+
+  void normalizedDisparity_isDoubted_data() {
+    QTest::addColumn<double>("white");
+    QTest::newRow("0 to 1") << 1.0;
+    QTest::newRow("0 to 255") << 255.0;
+  }
+  void normalizedDisparity_isDoubted() {
+    QFETCH(double, white);
+    const auto [least, most] =
+        std::minmax_element(disparity().data, disparity().data + disparity().size());
+    const double begin = *least, length = *most - *least;
+    write_numbers([=](double d) { return white * (d - begin) / length; });
+
+    const Scene scene = open();
+
+    QVERIFY2(warns_of(scene, "normalized or lack a constant"), describe(scene.convention).c_str());
+  }
+
+  void rightValues_areNotDoubted() {
+    use_noisy_views();
+    write_numbers([](double d) { return d; });
+
+    const Scene scene = open();
+
+    QVERIFY2(!warns_of(scene, "No known unit"), describe(scene.convention).c_str());
   }
 
   void pictureWithoutAUnit_isLeftOut_data() {
