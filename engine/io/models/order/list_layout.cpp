@@ -4,8 +4,8 @@
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
 #include "engine/core/text_table.h"
-#include "engine/io/models/order/view_axes.h"
 #include "engine/io/models/order/motion_pictures.h"
+#include "engine/io/models/order/view_axes.h"
 #include "engine/io/models/order/warp_check.h"
 
 #include <fmt/format.h>

@@ -2,8 +2,8 @@
 #include "engine/io/models/order/truth_views.h"
 
 #include "engine/core/finding.h"
-#include "engine/io/models/order/view_axes.h"
 #include "engine/io/models/order/motion_pictures.h"
+#include "engine/io/models/order/view_axes.h"
 #include "engine/io/models/order/warp_check.h"
 
 #include <fmt/format.h>
