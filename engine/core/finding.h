@@ -149,9 +149,8 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
      "is taken as black to white ({}). --levels states other values.",
      "Black is taken at %3, white at %4"},
     {"samples.disparity",
-     "These look like disparity maps of all views, since their values are no colors: if so, put "
-     "disparity into the name of the file, which is read as a result then, or evaluate {} as it is "
-     "with --truth INPUT.",
+     "These look like disparity maps of all views: their values are no colors. To judge them, run "
+     "evaluate {} --truth INPUT, or put disparity into the name of the file.",
      "These look like disparity maps of all views"},
     {"samples.normalized", "normalized in some way: 0.1 % of them are darker, 0.1 % brighter"},
     {"samples.unit", "-1 for black, 1 for white"},
@@ -314,8 +313,8 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
      "The unit of %1 is in doubt."},
     {"units.offset",
      "No known unit explains the views well with {}: taken for {}, the next views differ by {:.2f} "
-     "grey levels, with its values times {:.4g} plus {:.3g} px by {:.2f}; if they are normalized "
-     "or lack a constant, undo that: no option does.",
+     "grey levels, with its values times {:.4g} plus {:.3g} px by {:.2f}. If the map was "
+     "normalized or shifted, save it again in px: no option undoes that.",
      "%1 is normalized or lacks a constant."},
     {"units.warp", "mean grey error of neighboring views after warping {}, unwarped {}"},
     {"units.warp_stored",

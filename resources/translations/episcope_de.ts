@@ -3216,8 +3216,8 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>%1 mit %2×%3 px liegen neben Ansichten von %4×%5 px auf der Seite: Zeilen und Spalten wurden vertauscht.</translation>
     </message>
     <message>
-        <source>No known unit explains the views well with %1: taken for %2, the next views differ by %3 grey levels, with its values times %4 plus %5 px by %6; if they are normalized or lack a constant, undo that: no option does.</source>
-        <translation>Keine bekannte Einheit erklärt mit %1 die Ansichten gut: als %2 unterscheiden sich die nächsten Ansichten um %3 Graustufen, mit den Werten mal %4 plus %5 px um %6; sind sie normiert oder fehlt ihnen eine Konstante, das rückgängig machen: keine Option tut es.</translation>
+        <source>No known unit explains the views well with %1: taken for %2, the next views differ by %3 grey levels, with its values times %4 plus %5 px by %6. If the map was normalized or shifted, save it again in px: no option undoes that.</source>
+        <translation>Keine bekannte Einheit erklärt mit %1 die Ansichten gut: als %2 unterscheiden sich die nächsten Ansichten um %3 Graustufen, mit den Werten mal %4 plus %5 px um %6. Wurde die Karte normiert oder verschoben, sie noch einmal in px speichern: Keine Option macht das rückgängig.</translation>
     </message>
     <message>
         <source>No known unit explains the views well with %1: taken for %2, the next views differ by %3 grey levels, with its values times %4 by %5; if they are of another unit, convert the map to .pfm with --map-scale %6.</source>
@@ -3248,8 +3248,8 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Das sieht nach Disparitätskarten aller Ansichten aus</translation>
     </message>
     <message>
-        <source>These look like disparity maps of all views, since their values are no colors: if so, put disparity into the name of the file, which is read as a result then, or evaluate %1 as it is with --truth INPUT.</source>
-        <translation>Das sieht nach Disparitätskarten aller Ansichten aus, denn die Werte sind keine Farben: wenn ja, disparity in den Namen der Datei setzen, die dann als Ergebnis gelesen wird, oder %1 so, wie sie ist, mit evaluate und --truth EINGABE beurteilen.</translation>
+        <source>These look like disparity maps of all views: their values are no colors. To judge them, run evaluate %1 --truth INPUT, or put disparity into the name of the file.</source>
+        <translation>Das sieht nach Disparitätskarten aller Ansichten aus: Die Werte sind keine Farben. Zum Beurteilen evaluate %1 --truth EINGABE aufrufen oder disparity in den Namen der Datei setzen.</translation>
     </message>
     <message>
         <source>contrast at their edges %1 grey levels, as stored %2</source>
