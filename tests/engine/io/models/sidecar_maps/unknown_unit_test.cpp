@@ -208,7 +208,7 @@ class UnknownUnitTest : public QObject {
 
     const Scene scene = open();
 
-    QVERIFY2(warns_of(scene, "normalized or lack a constant"), describe(scene.convention).c_str());
+    QVERIFY2(warns_of(scene, "normalized or shifted"), describe(scene.convention).c_str());
   }
 
   void rightValues_areNotDoubted() {
