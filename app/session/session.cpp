@@ -186,6 +186,11 @@ void Session::see(EstimateEntry& entry) {
   if (std::exchange(entry.is_new, false)) changed(Part::Estimates);
 }
 
+void Session::show_opened_estimate(int id) {
+  const Comparison& comparison = now_->place.comparison;
+  if (comparison.mode == CompareMode::Single && !comparison.shows_difference) show_estimate(id);
+}
+
 void Session::show_estimate(int id) {
   EstimateEntry* entry = entry_in(*now_, id);
   if (id == now_->shown || !entry) return;

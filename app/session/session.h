@@ -102,6 +102,8 @@ class Session {
 
   /// Unknown ids are ignored. Showing the compared estimate swaps the two.
   void show_estimate(int id);
+  /// Shows an estimate that was opened for itself, but not in place of one that is beside another.
+  void show_opened_estimate(int id);
   /// The shown estimate, else null.
   [[nodiscard]] const EstimateEntry* shown() const { return find_estimate(now_->shown); }
   /// Chooses what the shown estimate is compared with; it stays until another one is chosen, it is

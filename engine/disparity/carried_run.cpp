@@ -245,7 +245,7 @@ BlockPass estimating(const SharedBlocks& blocks) {
 
 BlockPass carrying(const SharedBlocks& blocks) {
   BlockPass pass;
-  pass.step = "carrying to other views";
+  pass.step = "propagating to other views";
   pass.unit = BlockUnit::Views;
   pass.bytes = [blocks](int count) { return blocks->bytes_of_carried(count); };
   pass.compute = [blocks](const MapBlock& block, const ReadBlock& read, const std::vector<double>&,

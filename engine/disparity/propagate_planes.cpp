@@ -170,7 +170,7 @@ PropagatedMaps propagate_to_views(const std::vector<Estimate>& maps, ViewRectang
     return ViewStack<float>(views.grid, map.height(), map.width(), 1, views.first);
   };
   PropagatedMaps all{stack(), stack()};
-  progress.step("carrying to other views");
+  progress.step("propagating to other views");
   parallel_for(views.grid.count(), progress, [&](int i) {
     const ViewIndex view = views.grid.view_at(i, views.first);
     carry(maps, view, {all.disparity.view(view), all.confidence.view(view)});

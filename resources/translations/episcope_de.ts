@@ -2616,6 +2616,30 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>irgendwie normiert: 0.1 % von ihnen sind dunkler, 0.1 % heller</translation>
     </message>
     <message>
+        <source>the pictures of a file do not say how they are ordered</source>
+        <translation>die Bilder einer Datei sagen nicht, wie sie geordnet sind</translation>
+    </message>
+    <message>
+        <source>rows and columns follow from the names</source>
+        <translation>Zeilen und Spalten folgen aus den Namen</translation>
+    </message>
+    <message>
+        <source>the poses of the cameras say so</source>
+        <translation>die Posen der Kameras sagen es so</translation>
+    </message>
+    <message>
+        <source>mosaics hold rows and columns of views in order</source>
+        <translation>Mosaike enthalten Zeilen und Spalten der Ansichten in richtiger Folge</translation>
+    </message>
+    <message>
+        <source>benchmark folders store views in canonical order</source>
+        <translation>Ordner des Benchmarks enthalten Ansichten in kanonischer Ordnung</translation>
+    </message>
+    <message>
+        <source>arrays do not say how their views are ordered</source>
+        <translation>Arrays sagen nicht, wie ihre Ansichten geordnet sind</translation>
+    </message>
+    <message>
         <source>not checked (a single view)</source>
         <translation>nicht geprüft (eine einzelne Ansicht)</translation>
     </message>
@@ -7679,7 +7703,7 @@ s</translation>
         <translation>Kalibrierung</translation>
     </message>
     <message>
-        <source>carrying to other views</source>
+        <source>propagating to other views</source>
         <translation>Übertragung in andere Ansichten</translation>
     </message>
     <message>

@@ -69,6 +69,7 @@ void MeshResults::showOverView() {
         int& result = results_[scene];
         if (scene == bench_.session.generation()) bench_.session.remove_estimate(result);
         result = bench_.session.add_estimate(estimate, display_range(*estimate), scene);
+        bench_.session.show_opened_estimate(result);
       });
   bench_.jobs.setScene(job, bench_.session.generation());
 }

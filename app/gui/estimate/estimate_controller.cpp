@@ -120,6 +120,8 @@ EstimateController::EstimateController(const Workbench& bench)
   connect(&runs_, &MethodRuns::changed, this, &EstimateController::showRunning);
   connect(&bench.viewer_area, &ViewerArea::previewChanged, this, [this] {
     method_->setRunBlocked(why_nothing_runs(bench_.session, bench_.viewer_area));
+    listResults();
+    showChoice();
     bench_.commands.refresh();
   });
   connect(&bench.opener, &SceneOpener::opened, this, &EstimateController::runFirst);
@@ -321,6 +323,8 @@ ResultRow EstimateController::rowOf(const EstimateEntry& entry) const {
 
 void EstimateController::listResults() {
   std::vector<ResultRow> rows;
+  // Another light field is in sight.
+  if (bench_.viewer_area.isPreviewing()) return results_->setResults({});
   for (const EstimateEntry& entry : session_.estimates()) rows.push_back(rowOf(entry));
   if (const EstimateEntry* live = session_.live()) rows.push_back(rowOf(*live));
   results_->setResults(rows);
@@ -398,7 +402,9 @@ void EstimateController::addCommands() {
 }
 
 void EstimateController::addResultCommands() {
-  const auto has_result = [this] { return session_.shown() != nullptr; };
+  const auto has_result = [this] {
+    return session_.shown() != nullptr && !bench_.viewer_area.isPreviewing();
+  };
   bench_.commands.add({.menu = Menu::Estimate, .section = kResultSection, .enabled = has_result},
                       {{.id = "estimate.next",
                         .text = tr("Next result"),
@@ -428,7 +434,7 @@ void EstimateController::addResultCommands() {
                         .tip = tr("Writes a note on the shown result, kept with the project"),
                         .keys = {tr("Ctrl+Alt+N")},
                         .run = [this] { askForNote(*session_.shown()); }}});
-  bench_.commands.add({.menu = Menu::Export, .section = section::kResults},
+  bench_.commands.add({.menu = Menu::Export, .section = section::kResults, .enabled = has_result},
                       {{.id = "file.export",
                         .text = tr("Result…"),
                         .tip = tr("Writes the shown result: HDF5, PFM, TIFF or PLY"),

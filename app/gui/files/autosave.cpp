@@ -216,6 +216,10 @@ void SessionRecovery::look() {
   job_.start<Left>(
       [root = autosave_.root(), journals = bench_.document.journalFolder()](const Progress&) {
         Left left = root.empty() ? Left() : orphaned_workspaces(root);
+        std::erase_if(left, [](const OrphanedWorkspace& each) {
+          if (each.project.scenes.empty()) discard_workspace(each.folder);
+          return each.project.scenes.empty();
+        });
         for (OrphanedWorkspace& each : left) {
           if (!journals.empty()) name_journals(each.project, journals);
         }

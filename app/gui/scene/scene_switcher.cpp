@@ -245,6 +245,7 @@ void ResultOpener::openAs(const Request& request) {
         files_.note(path, read.stamp);
         session_.remove_estimate(request.misread);
         const int id = session_.add_estimate(read.estimate, read.display_range, generation);
+        session_.show_opened_estimate(id);
         if (request.is_foreign || read.is_of_others) session_.set_foreign_file(id, path);
         if (!read.differing_options.empty()) {
           messages_.warn(tr("%1 was estimated with%2: its errors may be meaningless. Choose the "

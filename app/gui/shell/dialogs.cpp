@@ -142,7 +142,9 @@ void ask_for_file_or_folder(QWidget* window, const FileQuestion& question, Answe
   button->setObjectName(question.name + ".folder");
   button->setAutoDefault(false);
   QObject::connect(button, &QPushButton::clicked, dialog, [dialog] {
-    emit dialog->fileSelected(dialog->directory().absolutePath());
+    const QString marked = dialog->selectedFiles().value(0);
+    emit dialog->fileSelected(QFileInfo(marked).isDir() ? marked
+                                                        : dialog->directory().absolutePath());
     dialog->reject();
   });
   dialog->open();

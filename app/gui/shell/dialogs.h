@@ -37,7 +37,7 @@ using Answer = std::function<void(const QString& path)>;
 void begin_dialogs_beside(const QString& path);
 
 void ask_for_file(QWidget* window, const FileQuestion& question, Answer answer);
-/// Asks for a file, or for the folder that the dialog shows, which has a button.
+/// Asks for a file, or for the folder that is marked or typed, else shown, which has a button.
 void ask_for_file_or_folder(QWidget* window, const FileQuestion& question, Answer answer);
 /// Asks for one or more files.
 void ask_for_files(QWidget* window, const FileQuestion& question,

@@ -330,7 +330,7 @@ Scene read_single(const ArrayFile& file, const char* reader, const OpenOptions& 
   parts.files = std::move(maps.uses);
   parts.files.insert(parts.files.begin(), {"light field", 1, entry.name, true});
   parts.expected.is_truth_sign_assumed = maps.is_sign_assumed;
-  parts.expected.reason = "arrays do not say how their views are ordered";
+  parts.expected.reason = finding_text("order.of_arrays");
   if (more.add) more.add(parts, scene.convention, progress.part(0.75, 0.8));
   assemble(std::move(parts), options, scene, progress.part(0.8, 1));
   return scene;

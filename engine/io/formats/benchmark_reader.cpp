@@ -401,7 +401,7 @@ Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const P
   parts.valid = std::move(pixels.valid);
   parts.truth = std::move(truth);
   parts.info = std::move(info);
-  parts.expected.reason = "benchmark folders store views in canonical order";
+  parts.expected.reason = finding_text("order.of_benchmark");
   parts.files = account.uses();
   assemble(std::move(parts), options, scene, progress.part(0.8, 1));
   return scene;

@@ -467,7 +467,7 @@ Scene read_light_field(const fs::path& path, const OpenOptions& options, const P
         },
         parts.samples);
   }
-  parts.expected.reason = "the pictures of a file do not say how they are ordered";
+  parts.expected.reason = finding_text("order.of_pictures");
   parts.files = {{"light field", 1, path.filename().string(), true}};
   assemble(std::move(parts), options, scene, progress.part(0.8, 1));
   return scene;

@@ -256,8 +256,8 @@ Scene read_image_grid(const fs::path& folder, const OpenOptions& options, const 
   parts.samples = std::move(samples);
   parts.valid = std::move(usable.pixels.valid);
   parts.info = std::move(info);
-  parts.expected.reason = evidence.empty() ? "rows and columns follow from the names" : evidence;
-  if (grid.poses.are_used()) parts.expected.reason = "the poses of the cameras say so";
+  parts.expected.reason = evidence.empty() ? finding_text("order.of_names") : evidence;
+  if (grid.poses.are_used()) parts.expected.reason = finding_text("order.of_poses");
   parts.files = account.uses();
   assemble(std::move(parts), options, scene, progress.part(0.8, 1));
   if (!evidence.empty() && !report.order_check.ends_with(evidence)) {

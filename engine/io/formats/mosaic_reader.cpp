@@ -447,7 +447,7 @@ Scene read_mosaic(const fs::path& path, const OpenOptions& options, const Progre
         split_mosaic(std::move(read.seen), layout, progress.part(0.75, 0.76)));
   }
   parts.info = std::move(info);
-  parts.expected.reason = "mosaics hold rows and columns of views in order";
+  parts.expected.reason = finding_text("order.of_mosaics");
   parts.files = std::move(read.files);
   if (read.origin.empty()) add_beside(path, options, parts, scene, progress.part(0.75, 0.8));
   assemble(std::move(parts), options, scene, progress.part(0.8, 1));

@@ -60,6 +60,7 @@ class CompareTest : public QObject {
   void chosenB_staysWhenAnotherIsShown();
   void resultOfAJob_leavesAComparisonAlone_data();
   void resultOfAJob_leavesAComparisonAlone();
+  void openedResult_isShownInTheSingleView();
   void rowOfTheMetricTable_showsItsResult();
   void metricTable_isCopiedByKey();
   void statistics_areOfWhatIsInSight();
@@ -260,6 +261,20 @@ void CompareTest::resultOfAJob_leavesAComparisonAlone() {
   QCOMPARE(tree->topLevelItem(results)->text(0), QString("new"));
   f.session().show_estimate(f.session().estimates().back().id);
   QTRY_VERIFY_WITH_TIMEOUT(tree->topLevelItem(results)->text(0).isEmpty(), kPatience);
+}
+
+void CompareTest::openedResult_isShownInTheSingleView() {
+  Compared f({0.1F, 0.2F});
+  f.session().compare_with(f.ids[0]);
+
+  const int opened = f.add(0.3F);
+  f.session().show_opened_estimate(opened);
+
+  QCOMPARE(f.session().side_a()->id, opened);
+  QCOMPARE(f.session().side_b()->id, f.ids[0]);
+  f.trigger("compare.wipe");
+  f.session().show_opened_estimate(f.add(0.4F));
+  QCOMPARE(f.session().side_a()->id, opened);
 }
 
 void CompareTest::rowOfTheMetricTable_showsItsResult() {

@@ -2,6 +2,8 @@
 #include "app/gui/estimate/estimate_controller.h"
 #include "app/gui/estimate/result_export.h"
 #include "app/gui/scene/scene_switcher.h"
+#include "app/gui/scene/viewer_area.h"
+#include "app/gui/shell/commands.h"
 #include "engine/io/base/exchange_files.h"
 #include "engine/io/formats/write_scene.h"
 #include "engine/io/models/external_result.h"
@@ -25,6 +27,7 @@
 #include <QTreeWidget>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -58,6 +61,8 @@ class ResultsTest : public QObject {
   Q_OBJECT
 
  private slots:
+  void commandsOfAResult_areOffWithoutOne();
+  void resultsOfTheFormerLightField_areNotListedBesideAPreview();
   void run_listsItsResultWithItsError();
   void nothingRuns_whileAnotherLightFieldIsRead();
   void exportedResult_readsBack();
@@ -75,6 +80,37 @@ class ResultsTest : public QObject {
   void form_namesTheRangeThatARunFound();
   void cornerThatAViewDoesNotShow_hasNoDisparity();
 };
+
+// They crashed.
+void ResultsTest::commandsOfAResult_areOffWithoutOne() {
+  WindowFixture f;
+  const auto are_on = [&f](bool wanted) {
+    return std::ranges::all_of(
+        std::array{"file.export", "file.export_submission", "estimate.note", "estimate.remove"},
+        [&](const char* id) { return f.window.bench().commands.find(id)->isEnabled() == wanted; });
+  };
+  QVERIFY(are_on(false));
+  f.openSmall();
+  QVERIFY(are_on(false));
+  f.key(Qt::Key_E, Qt::ControlModifier);
+  f.runAndWait();
+  QVERIFY(are_on(true));
+}
+
+void ResultsTest::resultsOfTheFormerLightField_areNotListedBesideAPreview() {
+  WindowFixture f;
+  f.openSmall();
+  f.runAndWait();
+  const auto* tree = f.window.findChild<QTreeWidget*>("results.tree");
+  QTRY_COMPARE(tree->topLevelItemCount(), 1);
+
+  f.window.bench().viewer_area.showPreview(QImage(96, 96, QImage::Format_RGB32), "being read");
+
+  QCOMPARE(tree->topLevelItemCount(), 0);
+  QVERIFY(!f.window.bench().commands.find("file.export")->isEnabled());
+  f.window.bench().viewer_area.endPreview();
+  QCOMPARE(tree->topLevelItemCount(), 1);
+}
 
 void ResultsTest::run_listsItsResultWithItsError() {
   WindowFixture f;

@@ -100,6 +100,7 @@ class OpeningTest : public QObject {
   void dialog_beginsBesideWhatWasOpened();
   void dialog_remembersItsFolder();
   void dialogForFiles_hidesNoForm();
+  void dialogForFiles_opensAFolder_data();
   void dialogForFiles_opensAFolder();
   void mapBesideViews_offersItsLightField();
   void mapAboveTheViewsInFront_isTheirs();
@@ -382,12 +383,20 @@ void OpeningTest::dialogForFiles_hidesNoForm() {
   dialog->reject();
 }
 
+void OpeningTest::dialogForFiles_opensAFolder_data() {
+  QTest::addColumn<bool>("is_marked");
+  QTest::newRow("the one that is shown") << false;
+  QTest::newRow("the one that is typed or marked") << true;
+}
+
 void OpeningTest::dialogForFiles_opensAFolder() {
+  QFETCH(bool, is_marked);
   WindowFixture f;
   f.writeScene("edge", WindowFixture::smallOptions());
   f.trigger("file.open");
   auto* dialog = f.window.findChild<QFileDialog*>("open_file");
-  dialog->setDirectory(f.path("edge"));
+  dialog->setDirectory(is_marked ? f.path("") : f.path("edge"));
+  if (is_marked) dialog->findChild<QLineEdit*>("fileNameEdit")->setText(f.path("edge"));
 
   QTest::mouseClick(dialog->findChild<QPushButton*>("open_file.folder"), Qt::LeftButton);
 

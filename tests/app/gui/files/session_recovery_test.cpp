@@ -105,6 +105,7 @@ class SessionRecoveryTest : public QObject {
   void offer_isKeptByItsCross_andTheDemoWaitsForIt();
   void discardedSession_isGone();
   void sceneThatWasOnlyLookedAt_comesBackClean();
+  void sessionWithoutLightFields_isNotOffered();
   void leftWindow_leavesNothingBehind();
   void runningSession_isNotOffered();
 };
@@ -265,6 +266,24 @@ void SessionRecoveryTest::sceneThatWasOnlyLookedAt_comesBackClean() {
   QVERIFY(f.recover());
 
   QVERIFY(!f.window.bench().document.hasUnsavedChanges());
+}
+
+void SessionRecoveryTest::sessionWithoutLightFields_isNotOffered() {
+  const QTemporaryDir state;
+  const WindowFixture files;
+  {
+    Recovering f(state.path());
+    f.open(files.writeScene("edge", WindowFixture::smallOptions()), 1);
+    f.estimate();
+    QTRY_VERIFY(!f.session().estimates()[0].kept.empty());
+    f.session().close();
+    QTRY_VERIFY(f.autosave().isIdle());
+  }  // as if killed
+
+  Recovering f(state.path());
+  QVERIFY(!f.recover());
+
+  QVERIFY(QDir(state.path() + "/sessions").isEmpty());
 }
 
 void SessionRecoveryTest::leftWindow_leavesNothingBehind() {
