@@ -120,12 +120,12 @@ CalibrationFiles calibration_files(const fs::path& path) {
     add_stored(path, stored);
     return stored;
   }
-  constexpr int kDeepest = 3;  // folders; extracted data lie in unit/T1CALIB
+  constexpr int kDeepestFolder = 3;  // folders; extracted data lie in unit/T1CALIB
   for (auto each =
            fs::recursive_directory_iterator(path, fs::directory_options::skip_permission_denied);
        each != fs::recursive_directory_iterator(); ++each) {
     const fs::directory_entry& entry = *each;
-    if (each.depth() >= kDeepest) each.disable_recursion_pending();
+    if (each.depth() >= kDeepestFolder) each.disable_recursion_pending();
     if (!entry.is_regular_file()) continue;
     if (is_storage_name(entry.path())) {
       add_stored(entry.path(), stored);

@@ -92,7 +92,7 @@ PosedViews place_by(FoundPoses found) {
 }
 
 // Throws IoError that says why the poses form no light field.
-void refuse_poses(const fs::path& folder, const PosedViews& poses) {
+[[noreturn]] void refuse_poses(const fs::path& folder, const PosedViews& poses) {
   throw IoError(folder, fmt::format("by {}, {}; a light field has parallel cameras on a plane, in "
                                     "equal steps: render such views, or name rows and columns by "
                                     "--grid if these are some",

@@ -8,6 +8,11 @@
 #include "widgets/controls/message_bar.h"
 
 #include <QDir>
+#include <QDirIterator>
+#include <QFile>
+#include <QJsonArray>
+#include <QJsonDocument>
+#include <QJsonObject>
 #include <QMessageBox>
 #include <QProcess>
 #include <QPushButton>
@@ -276,9 +281,17 @@ void SessionRecoveryTest::sessionWithoutLightFields_isNotOffered() {
     f.open(files.writeScene("edge", WindowFixture::smallOptions()), 1);
     f.estimate();
     QTRY_VERIFY(!f.session().estimates()[0].kept.empty());
-    f.session().close();
     QTRY_VERIFY(f.autosave().isIdle());
-  }  // as if killed
+  }  // as if killed, after the light field was closed
+  QDirIterator sessions(state.path(), {"session.episcope"}, QDir::Files,
+                        QDirIterator::Subdirectories);
+  QFile file(sessions.next());
+  QVERIFY(file.open(QIODevice::ReadWrite));
+  QJsonObject session = QJsonDocument::fromJson(file.readAll()).object();
+  session["scenes"] = QJsonArray();
+  file.resize(0);
+  file.write(QJsonDocument(session).toJson());
+  file.close();
 
   Recovering f(state.path());
   QVERIFY(!f.recover());
