@@ -81,6 +81,8 @@ struct Comparison {
   CompareMode mode = CompareMode::Single;
   double wipe_position = 0.5;     ///< Of the divider, as part of the width.
   bool shows_difference = false;  ///< A − B instead of the quantity.
+  /// Whether A and B are on screen together.
+  [[nodiscard]] bool shows_both() const { return mode != CompareMode::Single || shows_difference; }
   friend bool operator==(const Comparison&, const Comparison&) = default;
 };
 

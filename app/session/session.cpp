@@ -86,10 +86,9 @@ int Session::add_estimate(EstimatePtr estimate, Interval display_range, std::uin
 bool Session::is_comparing(const OpenScene& scene) const {
   const bool has_live = &scene == now_ && live();
   if (scene.estimates.empty() && !has_live) return false;
-  const Comparison& comparison = scene.place.comparison;
   const bool is_b_chosen = scene.is_compared_chosen &&
                            std::ranges::count(scene.estimates, scene.compared, &EstimateEntry::id);
-  return is_b_chosen || comparison.mode != CompareMode::Single || comparison.shows_difference;
+  return is_b_chosen || scene.place.comparison.shows_both();
 }
 
 void Session::remove_estimate(int id) {
@@ -187,8 +186,7 @@ void Session::see(EstimateEntry& entry) {
 }
 
 void Session::show_opened_estimate(int id) {
-  const Comparison& comparison = now_->place.comparison;
-  if (comparison.mode == CompareMode::Single && !comparison.shows_difference) show_estimate(id);
+  if (!now_->place.comparison.shows_both()) show_estimate(id);
 }
 
 void Session::show_estimate(int id) {

@@ -119,9 +119,7 @@ EstimateController::EstimateController(const Workbench& bench)
   connectResults();
   connect(&runs_, &MethodRuns::changed, this, &EstimateController::showRunning);
   connect(&bench.viewer_area, &ViewerArea::previewChanged, this, [this] {
-    method_->setRunBlocked(why_nothing_runs(bench_.session, bench_.viewer_area));
-    listResults();
-    showChoice();
+    update(Part::Scene);
     bench_.commands.refresh();
   });
   connect(&bench.opener, &SceneOpener::opened, this, &EstimateController::runFirst);

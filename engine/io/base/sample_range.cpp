@@ -110,11 +110,15 @@ int full_scale(double largest) {
   return kOfWords;
 }
 
-void settle_range(LightField::Samples& samples, const std::string& levels,
+bool settle_range(LightField::Samples& samples, const std::string& levels,
                   ConventionReport& report) {
-  if (!levels.empty()) return apply_chosen(samples, parse_levels(levels), report);
-  scale_float_samples(samples, report);
+  if (!levels.empty()) {
+    apply_chosen(samples, parse_levels(levels), report);
+    return false;
+  }
+  const bool is_disparity = scale_float_samples(samples, report);
   settle_words(samples, report);
+  return is_disparity;
 }
 
 namespace {
@@ -248,16 +252,11 @@ void scale_linear(ViewStack<float>& stack, const FloatSpread& spread, Convention
       fmt::format(finding_text("samples.linear"), spread.largest, spread.median, spread.highlight));
 }
 
-}  // namespace
-
-void scale_float_samples(LightField::Samples& samples, ConventionReport& report) {
-  ViewStack<float>* stack = floats_of(samples);
-  if (stack == nullptr) return;
-  const auto [smallest, largest] = extremes_of(*stack);
-  if (largest <= kMaxUnitSample && smallest == 0) return;
-  const FloatSpread spread = spread_of(*stack, smallest, largest);
+// Samples that are not from 0 to 1 alone.
+void scale_by_spread(ViewStack<float>& stack, const FloatSpread& spread, ConventionReport& report) {
+  const float largest = spread.largest;
   if (spread.negative_share >= kFewestNegative) {
-    if (!is_noise_around_black(spread)) return scale_signed(*stack, spread, report);
+    if (!is_noise_around_black(spread)) return scale_signed(stack, spread, report);
     report.warnings.push_back(
         fmt::format(finding_text("samples.noise"), 100 * spread.negative_share, spread.smallest));
   }
@@ -265,23 +264,32 @@ void scale_float_samples(LightField::Samples& samples, ConventionReport& report)
   const bool is_whole = spread.whole_share >= kMostlyWhole;
   const int divisor = is_whole ? full_scale(largest) : largest > kMaxByteSample ? 65535 : 255;
   const bool is_scaled = is_whole || spread.median > kLeastMedian * static_cast<float>(divisor);
-  if (!is_scaled || largest > kMaxWordSample) return scale_linear(*stack, spread, report);
-  map_levels(*stack, 0, static_cast<float>(divisor));
+  if (!is_scaled || largest > kMaxWordSample) return scale_linear(stack, spread, report);
+  map_levels(stack, 0, static_cast<float>(divisor));
   report.samples = fmt::format("float32, taken as samples of {} bits; estimators see value/{}",
                                std::bit_width(static_cast<unsigned>(divisor)), divisor);
   report.warnings.push_back(
       fmt::format(finding_text("samples.divided"), std::lround(largest), divisor));
 }
 
-bool can_be_disparity(const LightField::Samples& samples) {
-  const auto* const stack = std::get_if<ViewStack<float>>(&samples);
-  if (!stack || stack->channels() > 1 || stack->grid().count() < 2) return false;
-  const auto [smallest, largest] = extremes_of(*stack);
-  if (std::max(largest, -smallest) > kLargestDisparity) return false;
-  const FloatSpread spread = spread_of(*stack, smallest, largest);
+bool can_be_disparity(const ViewStack<float>& stack, const FloatSpread& spread) {
+  if (stack.channels() > 1 || stack.grid().count() < 2) return false;
+  if (std::max(spread.largest, -spread.smallest) > kLargestDisparity) return false;
   if (spread.whole_share >= kMostlyWhole) return false;
   const bool is_signed = spread.negative_share >= kFewestNegative && !is_noise_around_black(spread);
-  return is_signed || largest > kMaxUnitSample;
+  return is_signed || spread.largest > kMaxUnitSample;
+}
+
+}  // namespace
+
+bool scale_float_samples(LightField::Samples& samples, ConventionReport& report) {
+  ViewStack<float>* stack = floats_of(samples);
+  if (stack == nullptr) return false;
+  const auto [smallest, largest] = extremes_of(*stack);
+  if (largest <= kMaxUnitSample && smallest == 0) return false;
+  const FloatSpread spread = spread_of(*stack, smallest, largest);
+  scale_by_spread(*stack, spread, report);
+  return can_be_disparity(*stack, spread);
 }
 
 ViewStack<std::uint8_t> all_valid(GridShape grid, int height, int width) {

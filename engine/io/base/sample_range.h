@@ -21,8 +21,9 @@ namespace episcope::io {
 ///   9000 (well above what 13 bits hold) and none exceeds 16383. Views mapped from their file stay
 ///   as they are.
 ///
-/// Integers stay integers, rounded to the nearest. Throws InvalidInput for other `levels`.
-void settle_range(LightField::Samples& samples, const std::string& levels,
+/// Integers stay integers, rounded to the nearest. Returns what `scale_float_samples` does, false
+/// with `levels`. Throws InvalidInput for other `levels`.
+bool settle_range(LightField::Samples& samples, const std::string& levels,
                   ConventionReport& report);
 
 /// Largest value of the smallest sample depth (8, 10, 12 or 16 bits) that holds `largest`.
@@ -35,12 +36,10 @@ void settle_range(LightField::Samples& samples, const std::string& levels,
 /// Resampled ones, half of which exceed 2 % of that range, are divided by 255, or by 65535 if one
 /// exceeds 255.5. Others are linear with highlights (HDR): they are divided by their quantile of
 /// 99.9 % if that exceeds 1.5, so that only highlights exceed 1. Zeros do not count; up to a
-/// million samples are looked at. Integers stay as they are.
-void scale_float_samples(LightField::Samples& samples, ConventionReport& report);
-
-/// Whether views are rather disparity maps: floats of one channel, clearly negative or above 1.5
-/// and not whole, but none beyond 64.
-[[nodiscard]] bool can_be_disparity(const LightField::Samples& samples);
+/// million samples are looked at. Integers stay as they are. Returns whether views are rather
+/// disparity maps: floats of one channel, clearly negative or above 1.5 and not whole, but none
+/// beyond 64.
+bool scale_float_samples(LightField::Samples& samples, ConventionReport& report);
 
 /// A mask of pixels, all of them valid (1).
 [[nodiscard]] ViewStack<std::uint8_t> all_valid(GridShape grid, int height, int width);

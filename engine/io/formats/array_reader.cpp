@@ -300,11 +300,10 @@ Scene read_single(const ArrayFile& file, const char* reader, const OpenOptions& 
   Scene scene;
   progress.step("reading views");
   ArraySamples read = read_samples(*array, chosen.layout, progress.part(0.05, 0.65));
-  if (can_be_disparity(read.samples)) {
+  if (settle_range(read.samples, options.levels, scene.convention)) {
     scene.convention.warnings.push_back(
         fmt::format(finding_text("samples.disparity"), file.path().filename().string()));
   }
-  settle_range(read.samples, options.levels, scene.convention);
   if (!read.left_out.empty()) {
     scene.convention.warnings.push_back(
         fmt::format(finding_text("samples.fourth"), entry.name, read.left_out));
