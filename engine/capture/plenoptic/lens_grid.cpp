@@ -40,7 +40,7 @@ constexpr double kFaintest = 0.002;      // amplitude of the lattice over the me
 constexpr double kWorstResidual = 0.03;  // of the pitch
 // Of a scene: photographs have 0.023 and more, but in the square lattices that they show.
 constexpr double kWorstOfSquareScene = 0.02, kWorstOfHexagonalScene = 0.07;
-constexpr std::size_t kFewestOfScene = 150;  // in fewer, windows overlap so much that all agree
+constexpr std::size_t kFewestOfScene = 100;  // in fewer, windows overlap so much that all agree
 constexpr double kFewestInliers = 0.6;       // of the lenses that the lattice has there
 
 [[noreturn]] void refuse(const std::string& why) {

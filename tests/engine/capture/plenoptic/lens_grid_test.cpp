@@ -171,6 +171,10 @@ class LensGridTest : public QObject {
     QCOMPARE(problem_of(picture_of(array)), QString("an array was found"));
     const QString problem = problem_of(picture_of(array), LensLight::Scene);
     QVERIFY2(problem.contains("too coarse to be told from texture"), qPrintable(problem));
+    // As large as those of the laboratory raw picture, which shows 27×20 of them.
+    const Array large{
+        .is_hexagonal = false, .pitch = 48.2, .degrees = 0.13, .width = 1280, .height = 960};
+    QCOMPARE(problem_of(picture_of(large), LensLight::Scene), QString("an array was found"));
   }
 
   void pitchOfTheOptics_isChecked() {
