@@ -20,6 +20,14 @@ if(CMAKE_UNITY_BUILD)
   # Classes whose hidden part has types of an unnamed namespace: GCC takes their source for a header.
   target_compile_options(episcope_options INTERFACE
     $<$<COMPILE_LANG_AND_ID:CXX,GNU>:$<BUILD_INTERFACE:-Wno-subobject-linkage>>)
+  # GCC collects its garbage only from 1 GB on: a tenth less time, a third more memory.
+  cmake_host_system_information(RESULT processors QUERY NUMBER_OF_LOGICAL_CORES)
+  cmake_host_system_information(RESULT megabytes QUERY TOTAL_PHYSICAL_MEMORY)
+  math(EXPR share "${megabytes} / ${processors}")
+  if(share GREATER_EQUAL 2000)
+    target_compile_options(episcope_options INTERFACE
+      $<$<COMPILE_LANG_AND_ID:CXX,GNU>:$<BUILD_INTERFACE:--param=ggc-min-heapsize=1000000>>)
+  endif()
 endif()
 if(EPISCOPE_SANITIZE)
   target_compile_options(
