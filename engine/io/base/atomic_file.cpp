@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <sys/file.h>
 #include <unistd.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <array>
@@ -222,17 +223,6 @@ struct LogContent {
   std::size_t whole_bytes = 0;  ///< Of the signature and these records.
 };
 
-constexpr std::array<std::uint32_t, 256> checksum_table() {
-  std::array<std::uint32_t, 256> table{};
-  for (std::uint32_t byte = 0; byte < table.size(); ++byte) {
-    std::uint32_t value = byte;
-    for (int bit = 0; bit < 8; ++bit)
-      value = (value & 1U) != 0 ? 0xEDB88320U ^ (value >> 1) : value >> 1;
-    table[byte] = value;
-  }
-  return table;
-}
-
 using LogBytes = std::span<const std::uint8_t>;
 
 constexpr std::array<std::uint8_t, 8> kSignature{'E', 'P', 'I', 'L', 'O', 'G', '1', '\n'};
@@ -324,10 +314,7 @@ IoError not_a_log(const std::filesystem::path& path) {
 }  // namespace
 
 std::uint32_t checksum(std::span<const std::uint8_t> bytes) {
-  static constexpr std::array<std::uint32_t, 256> table = checksum_table();
-  std::uint32_t value = 0xFFFFFFFFU;
-  for (const std::uint8_t byte : bytes) value = table[(value ^ byte) & 0xFFU] ^ (value >> 8);
-  return ~value;
+  return static_cast<std::uint32_t>(crc32_z(0, bytes.data(), bytes.size()));
 }
 
 /// Flushes an open file to the disk soon after each write, on a thread of its own, so that the
