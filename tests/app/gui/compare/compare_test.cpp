@@ -236,6 +236,8 @@ void CompareTest::resultOfAJob_leavesAComparisonAlone_data() {
   QTest::newRow("wipe of two") << 2 << "compare.wipe";
   QTest::newRow("wipe of one and the truth") << 1 << "compare.wipe";
   QTest::newRow("B was chosen") << 2 << QString();
+  QTest::newRow("numbers of two") << 2 << "tab.compare";
+  QTest::newRow("plots of two") << 2 << "tab.errors";
 }
 
 // Run by key.
