@@ -308,13 +308,21 @@ void DocumentController::go(DocumentChange (AnnotationDocument::*step)()) {
   keepJournal();
   AnnotationDocument& document = now_.annotation->document();
   const std::uint64_t before = document.state();
+  const bool is_undo = step == &AnnotationDocument::undo;
+  const History<Edit>& history = document.history();
+  const Edit* edit = is_undo ? history.next_undo() : history.next_redo();
   DocumentChange change;
-  run([&] { change = (document.*step)(); });
+  run([&] {
+    change = (document.*step)();
+    const Edit* label = history.next_undo();
+    if (!label || label->kind != EditKind::AddPaintedLabel) return;
+    const DocumentChange other = (document.*step)();
+    change.views.insert(change.views.end(), other.views.begin(), other.views.end());
+    change.has_new_labels = true;
+  });
   if (document.state() == before) return;
   if (change.empty()) change = everything();  // made, but the journal failed
   tell(change);
-  const bool is_undo = step == &AnnotationDocument::undo;
-  const Edit* edit = is_undo ? document.history().next_redo() : document.history().next_undo();
   if (edit) emit steppedBack(change, *edit, is_undo);
 }
 
