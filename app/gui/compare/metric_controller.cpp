@@ -258,7 +258,9 @@ void MetricController::score(std::vector<Scored> wanted) {
 
 void MetricController::tell(const std::vector<std::string>& notes) {
   for (const std::string& note : notes) {
-    if (told_.insert(note).second) bench_.messages.warn(finding_words(note));
+    if (!told_.insert(note).second) continue;
+    bench_.messages.warn(finding_words(note));
+    bench_.messages.endWithLightField();
   }
 }
 

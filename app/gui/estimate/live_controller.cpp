@@ -222,6 +222,7 @@ void MethodRuns::run(const EstimateRequest& request, const OpenScene& scene, boo
         offerToShow(added);
         if (finished.warning.empty()) return;
         bench_.messages.warn(tr("%1: %2.").arg(method, finding_words(finished.warning)));
+        if (id == bench_.session.generation()) bench_.messages.endWithLightField();
       });
   runs_[job] = scene.id;
   bench_.jobs.setScene(job, scene.id);

@@ -88,7 +88,7 @@ bool DocumentController::takeAside() {
   session_.set_unread_strokes(generation_, now_.stored);
   finish(now_);
   now_ = {};
-  emit problem((is_stored ? tr("The scribbles on “%1” belong to a light field of another size; "
+  emit finding((is_stored ? tr("The scribbles on “%1” belong to a light field of another size; "
                                "they are kept in the project.")
                           : tr("The scribbles on “%1” belong to a light field of another size; "
                                "they are offered again at the next start."))
@@ -106,7 +106,7 @@ void DocumentController::openDocument() {
     setDocument(make(session_.scene()->scribbles), true, {});
   } catch (const InvalidInput& error) {
     setDocument(make({}), false, {});
-    emit problem(tr("The scribbles of this light field cannot be edited: %1. They are left "
+    emit finding(tr("The scribbles of this light field cannot be edited: %1. They are left "
                     "unchanged; new scribbles are saved to another file.")
                      .arg(QString::fromUtf8(error.what())));
   }

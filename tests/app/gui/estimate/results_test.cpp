@@ -327,6 +327,10 @@ void ResultsTest::resultOfOtherSamples_isOpenedWithAWarning() {
   QCOMPARE(messages->severity(), Severity::Warning);
   QCOMPARE(f.window.bench().session.estimates()[1].foreign_file.filename().string(),
            std::string("foreign.h5"));
+
+  f.openSmall("slant");
+
+  QVERIFY(!messages->isVisible());
 }
 
 // Its true depth would be taken for disparity.
