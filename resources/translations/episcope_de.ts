@@ -1919,10 +1919,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Kopiert: %1</translation>
     </message>
     <message>
-        <source>Belongs to another light field: %1. Its errors may be meaningless.</source>
-        <translation>Gehört zu einem anderen Lichtfeld: %1. Seine Fehler besagen vielleicht nichts.</translation>
-    </message>
-    <message>
         <source>Result…</source>
         <translation>Ergebnis…</translation>
     </message>
@@ -5604,6 +5600,10 @@ s</translation>
         <source>defaults</source>
         <translation>Standardwerte</translation>
     </message>
+    <message>
+        <source>Belongs to another light field: %1. Its errors may be meaningless.</source>
+        <translation>Gehört zu einem anderen Lichtfeld: %1. Seine Fehler besagen vielleicht nichts.</translation>
+    </message>
 </context>
 <context>
     <name>episcope::OverlayBar</name>
@@ -6645,10 +6645,6 @@ s</translation>
     <message>
         <source>“%1”</source>
         <translation>„%1“</translation>
-    </message>
-    <message>
-        <source>⚠ %1</source>
-        <translation>⚠ %1</translation>
     </message>
     <message>
         <source> · </source>

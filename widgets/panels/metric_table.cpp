@@ -198,6 +198,10 @@ void MetricTable::fillRow(int row, const MetricRow& values) {
     if (is_text) item->setToolTip(value.toString());
     table_->setItem(row, static_cast<int>(i), item);
   }
+  if (values.warning.isEmpty()) return;
+  QTableWidgetItem* name = table_->item(row, 0);
+  name->setToolTip(name->text() + '\n' + values.warning);
+  name->setText(warned_name(name->text()));
 }
 
 void MetricTable::setSides(quint64 a, quint64 b) {
@@ -300,7 +304,10 @@ QString MetricTable::toLatex() const {
     for (int column = 0; column < table_->columnCount(); ++column) {
       if (isHidden(columns_[static_cast<std::size_t>(column)])) continue;
       const auto* item = table_->item(row, column);
-      cells.push_back(is_absent(item->data(kValueRole)) ? "--" : item->text().toStdString());
+      const QVariant value = item->data(kValueRole);
+      const bool is_text = value.typeId() == QMetaType::QString;
+      cells.push_back(is_absent(value) ? "--"
+                                       : (is_text ? value.toString() : item->text()).toStdString());
       stressed.push_back(item->font().bold());
     }
   }

@@ -32,6 +32,7 @@ struct MetricRow {
   quint64 id = 0;
   /// One value per column: a double, a string, or an invalid QVariant if the metric is missing.
   std::vector<QVariant> values;
+  QString warning{};  ///< The name then has a warning sign, and this in its tool tip.
   friend bool operator==(const MetricRow&, const MetricRow&) = default;
 };
 

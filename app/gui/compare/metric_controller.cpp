@@ -2,6 +2,7 @@
 #include "app/gui/compare/metric_controller.h"
 
 #include "app/gui/compare/region_controller.h"
+#include "app/gui/scene/overlay.h"
 #include "app/gui/shell/commands.h"
 #include "app/gui/shell/dialogs.h"
 #include "app/gui/shell/frame.h"
@@ -170,10 +171,10 @@ void MetricController::fillTable() {
   add_text("note", tr("Note"));
   std::vector<MetricRow> rows;
   for (const Judged& each : judged) {
+    const EstimateEntry& entry = *session_.find_estimate(each.id);
     rows.push_back(row_of(each, places));
-    for (const QString& cell : provenanceOf(*session_.find_estimate(each.id))) {
-      rows.back().values.emplace_back(cell);
-    }
+    rows.back().warning = foreign_text(entry);
+    for (const QString& cell : provenanceOf(entry)) rows.back().values.emplace_back(cell);
   }
   mark_minor(columns, rows);
   table_->setTable(columns, rows);

@@ -476,6 +476,12 @@ QStringList sample_texts(const LightField& light_field, ViewIndex view, PixelInd
   return texts;
 }
 
+QString foreign_text(const EstimateEntry& entry) {
+  if (entry.foreign_file.empty()) return {};
+  return Overlay::tr("Belongs to another light field: %1. Its errors may be meaningless.")
+      .arg(QString::fromStdString(entry.foreign_file.string()));
+}
+
 QString named_value(const Estimate& estimate, const std::string& key, const ParameterValue& value) {
   static const std::vector<ParameterDescription> kNone;
   const Estimator* known = known_estimator(estimate.method);

@@ -191,6 +191,9 @@ class Overlay : public QObject {
 [[nodiscard]] QStringList sample_texts(const LightField& light_field, ViewIndex view,
                                        PixelIndex pixel);
 
+/// Says that a result belongs to another light field; empty if it does not.
+[[nodiscard]] QString foreign_text(const EstimateEntry& entry);
+
 /// A parameter of an estimate as forms name it: "Inner scale 1.2 px".
 [[nodiscard]] QString named_value(const Estimate& estimate, const std::string& key,
                                   const ParameterValue& value);

@@ -24,6 +24,7 @@
 #include <QGuiApplication>
 #include <QPushButton>
 #include <QRegularExpression>
+#include <QTableWidget>
 #include <QTreeWidget>
 
 #include <algorithm>
@@ -327,6 +328,16 @@ void ResultsTest::resultOfOtherSamples_isOpenedWithAWarning() {
   QCOMPARE(messages->severity(), Severity::Warning);
   QCOMPARE(f.window.bench().session.estimates()[1].foreign_file.filename().string(),
            std::string("foreign.h5"));
+  f.trigger("tab.compare");
+  const auto* table = f.window.findChild<QTableWidget*>("metrics.table");
+  const auto* a = f.window.findChild<QComboBox*>("compare.a");
+  QTRY_COMPARE_WITH_TIMEOUT(table->rowCount(), 2, kPatience);
+  const QString name = QString::fromStdString(f.window.bench().session.estimates()[1].name);
+  QTRY_COMPARE(table->item(1, 0)->text(), "⚠ " + name);
+  QCOMPARE(a->currentText(), "⚠ " + name);
+  for (const QString& tip : {table->item(1, 0)->toolTip(), a->toolTip()}) {
+    QVERIFY2(tip.contains("Belongs to another light field"), qPrintable(tip));
+  }
 
   f.openSmall("slant");
 
