@@ -103,6 +103,7 @@ class OpeningTest : public QObject {
   void dialogForFiles_opensAFolder_data();
   void dialogForFiles_opensAFolder();
   void mapBesideViews_offersItsLightField();
+  void mapBesideOnePicture_isOfTheLightFieldInFront();
   void mapAboveTheViewsInFront_isTheirs();
   void resultsAlone_openWithTheirLightField();
   void resultsAlone_openBesideABrokenOne();
@@ -424,6 +425,20 @@ void OpeningTest::mapBesideViews_offersItsLightField() {
   choose(f, f.path("edge/map.pfm"));  // it belongs to the light field in front now
   QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().session.estimates().size(), 1U, kScenePatience);
   QVERIFY(f.window.bench().session.estimates()[0].foreign_file.empty());
+}
+
+void OpeningTest::mapBesideOnePicture_isOfTheLightFieldInFront() {
+  WindowFixture f;
+  f.openSmall("slant");
+  f.runAndWait();
+  QDir().mkpath(f.path("new"));
+  exportShown(f, f.path("new/mine.pfm"));
+  QVERIFY(f.canvas()->picture().save(f.path("new/picture.png")));
+
+  choose(f, f.path("new/mine.pfm"));
+
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().session.estimates().size(), 2U, kScenePatience);
+  QVERIFY(!f.window.findChild<QMessageBox*>("result_owner"));
 }
 
 // Its folder has a light field, too: the one in front, whose views lie one folder deeper.
