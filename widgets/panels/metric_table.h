@@ -74,12 +74,14 @@ class MetricTable : public QWidget {
 
  protected:
   void changeEvent(QEvent* event) override;
+  bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
   void setUpTable();
   void fill();
   void fillRow(int row, const MetricRow& values);
   void fitColumns();
+  [[nodiscard]] int widthOf(int column) const;
   void stressBest();
   void showMenu(const QPoint& position);
   void addColumnsTo(QMenu& menu);

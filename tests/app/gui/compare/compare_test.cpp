@@ -18,6 +18,7 @@
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QHeaderView>
+#include <QScrollBar>
 #include <QTabWidget>
 #include <QTableWidget>
 #include <QTreeWidget>
@@ -62,6 +63,7 @@ class CompareTest : public QObject {
   void resultOfAJob_leavesAComparisonAlone();
   void openedResult_isShownInTheSingleView();
   void rowOfTheMetricTable_showsItsResult();
+  void longNames_leaveTheNumbersInSight();
   void metricTable_isCopiedByKey();
   void statistics_areOfWhatIsInSight();
   void automaticRange_isThatOfWhatIsInSight();
@@ -293,6 +295,23 @@ void CompareTest::rowOfTheMetricTable_showsItsResult() {
   // Off by less: the best MSE.
   QTRY_VERIFY_WITH_TIMEOUT(table->item(0, 1)->font().bold(), kPatience);
   QVERIFY(!table->item(1, 1)->font().bold());
+}
+
+void CompareTest::longNames_leaveTheNumbersInSight() {
+  Compared f({0.1F, 0.2F});
+  f.window.resize(1280, 800);
+  const QString name = "structure tensor with a long name and its parameters";
+  f.session().rename_estimate(f.ids[0], name.toStdString());
+  f.trigger("tab.compare");
+  const auto* table = f.window.findChild<QTableWidget*>("metrics.table");
+
+  QTRY_VERIFY_WITH_TIMEOUT(
+      table->rowCount() == 2 && table->columnCount() > 7 && table->item(0, 1)->text() != "–",
+      kPatience);
+
+  QCOMPARE(table->horizontalScrollBar()->maximum(), 0);
+  QCOMPARE(table->item(0, 0)->toolTip(), name);
+  QVERIFY(table->columnWidth(0) < table->fontMetrics().horizontalAdvance(name));
 }
 
 void CompareTest::metricTable_isCopiedByKey() {
