@@ -11,7 +11,9 @@
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
 #include "widgets/controls/message_bar.h"
+#include "widgets/controls/parameter_form.h"
 #include "widgets/controls/text.h"
+#include "widgets/panels/method_panel.h"
 #include "widgets/panels/value_bar.h"
 
 #include <QAbstractButton>
@@ -66,6 +68,7 @@ class ResultsTest : public QObject {
   void resultsOfTheFormerLightField_areNotListedBesideAPreview();
   void run_listsItsResultWithItsError();
   void nothingRuns_whileAnotherLightFieldIsRead();
+  void rangeSetByHand_staysForOtherMethods();
   void exportedResult_readsBack();
   void exportedMap_marksInvalidPixels();
   void submittedResult_isAccepted();
@@ -157,6 +160,17 @@ void ResultsTest::nothingRuns_whileAnotherLightFieldIsRead() {
   area.endPreview();
 
   QVERIFY(can_run() == std::vector<bool>(7, true));
+}
+
+void ResultsTest::rangeSetByHand_staysForOtherMethods() {
+  const WindowFixture f;
+  auto& panel = find<MethodPanel>(f.window);
+  const ParameterSet range{{"range", IntervalOrAuto(Interval{-1, 2})}};
+  panel.form()->setValues(range);
+
+  panel.setCurrentMethod("epi_s");
+
+  QVERIFY(*find_value(panel.request().values, "range") == range[0].second);
 }
 
 void ResultsTest::exportedResult_readsBack() {
