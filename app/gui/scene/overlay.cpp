@@ -232,7 +232,9 @@ void Overlay::showLook() {
   const OverlayLook look = lookOf(quantity);
   viewer_area_.overlayBar()->setOpacity(look.opacity);
   viewer_area_.canvas()->setOverlayOpacity(look.opacity);
-  viewer_area_.canvas()->setGreyUnderOverlay(render::info_of(quantity).has_scale() &&
+  const bool is_covered = render::info_of(quantity).has_scale() ||
+                          session_.label_style().drawing != render::LabelDrawing::Contours;
+  viewer_area_.canvas()->setGreyUnderOverlay(quantity != Quantity::View && is_covered &&
                                              !look.is_view_colored);
 }
 
