@@ -9074,8 +9074,8 @@ s</translation>
         <translation>Schlecht über</translation>
     </message>
     <message>
-        <source>Visible evaluated pixels that are off by more than the threshold</source>
-        <translation>Sichtbare bewertete Pixel, deren Fehler über der Schwelle liegt</translation>
+        <source>Visible pixels that are off by more than the threshold, without the border of 15 px, which the table ignores, too</source>
+        <translation>Sichtbare Pixel, die um mehr als die Schwelle abweichen, ohne den Rand von 15 px, den auch die Tabelle auslässt</translation>
     </message>
     <message>
         <source>%1 [%2]</source>

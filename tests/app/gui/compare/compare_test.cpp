@@ -72,6 +72,7 @@ class CompareTest : public QObject {
   void withoutResults_nothingCanBeCompared();
   void closedScene_leavesEveryMode();
   void badPixels_followTheirThreshold();
+  void badPixels_ofTheWholeView_areThoseOfTheTable();
   void truth_isMarkedAsNeitherSide();
 };
 
@@ -129,6 +130,27 @@ void CompareTest::flip_marksWhichOneIsSeen() {
   QVERIFY(epi_of_a != epi_of_b);  // the line and its label are of B, too
   QCOMPARE(epi->grab().toImage(), epi_of_a);
   QCOMPARE(f.canvas()->grab().toImage(), of_a);
+}
+
+void CompareTest::badPixels_ofTheWholeView_areThoseOfTheTable() {
+  WindowFixture f;
+  f.openSmall();
+  f.runAndWait();
+  f.trigger("overlay.bad_pixels");
+  f.trigger("tab.compare");
+  const auto* table = f.window.findChild<QTableWidget*>("metrics.table");
+  const auto bad_of_table = [table] {
+    for (int column = 0; column < table->columnCount(); ++column) {
+      const bool is_bad = table->horizontalHeaderItem(column)->text() == "2016\nbad .07";
+      if (is_bad && table->item(0, column)) return table->item(0, column)->text();
+    }
+    return QString();
+  };
+  QTRY_VERIFY_WITH_TIMEOUT(!bad_of_table().isEmpty(), kPatience);
+
+  const auto* panel = f.window.findChild<StatisticsPanel*>();
+  QTRY_VERIFY2_WITH_TIMEOUT(panel->text().contains("bad " + bad_of_table() + " %"),
+                            qPrintable(panel->text() + " · " + bad_of_table()), kPatience);
 }
 
 void CompareTest::truth_isMarkedAsNeitherSide() {
