@@ -9416,10 +9416,6 @@ s</translation>
         <translation>Fehler Artikel speichern</translation>
     </message>
     <message>
-        <source>point cloud mesh save</source>
-        <translation>Punktwolke Netz speichern</translation>
-    </message>
-    <message>
         <source>zoom percent original</source>
         <translation>Zoom Prozent Original</translation>
     </message>
@@ -9494,6 +9490,26 @@ s</translation>
     <message>
         <source>documentation guide</source>
         <translation>Dokumentation Anleitung</translation>
+    </message>
+    <message>
+        <source>point cloud</source>
+        <translation>Punktwolke</translation>
+    </message>
+    <message>
+        <source>mesh save</source>
+        <translation>Netz speichern</translation>
+    </message>
+    <message>
+        <source>point cloud mesh depth</source>
+        <translation>Punktwolke Netz Tiefe</translation>
+    </message>
+    <message>
+        <source>histogram statistics scores errors</source>
+        <translation>Histogramm Statistik Maße Fehler</translation>
+    </message>
+    <message>
+        <source>plot curve distribution histogram</source>
+        <translation>Diagramm Kurve Verteilung Histogramm</translation>
     </message>
 </context>
 <context>
