@@ -147,7 +147,7 @@ void MethodPanel::showMethod(int index) {
   }
   const MethodDescription method = has_method ? methods_[index] : MethodDescription{};
   summary_->setText(schema_text(method.summary));
-  reference_->setText(QString::fromStdString(method.reference));
+  reference_->setText(schema_text(method.reference));
   reference_->setVisible(!method.reference.empty());
   all_views_->setEnabled(method.all_views);
   all_views_->setChecked(method.all_views);

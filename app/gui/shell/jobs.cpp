@@ -7,6 +7,7 @@
 #include "widgets/controls/message_bar.h"
 #include "widgets/controls/text.h"
 
+#include <QCoreApplication>
 #include <QMetaObject>
 #include <QRegularExpression>
 
@@ -19,6 +20,31 @@ namespace episcope {
 namespace {
 
 constexpr std::chrono::milliseconds kTimeBetweenProgress{100};
+
+// Steps that the engine composes of a name or numbers.
+constexpr const char* kComposedSteps[] = {
+    QT_TRANSLATE_NOOP("episcope::Step", "reading %1"),
+    QT_TRANSLATE_NOOP("episcope::Step", "writing %1"),
+    QT_TRANSLATE_NOOP("episcope::Step", "rendering the scene %1"),
+    QT_TRANSLATE_NOOP("episcope::Step", "exposing %1"),
+    QT_TRANSLATE_NOOP("episcope::Step", "photographing view %1"),
+    QT_TRANSLATE_NOOP("episcope::Step", "depth of view %1"),
+    QT_TRANSLATE_NOOP("episcope::Step", "matching view %1"),
+    QT_TRANSLATE_NOOP("episcope::Step", "finding the pattern in %1"),
+    QT_TRANSLATE_NOOP("episcope::Step", "ordering, sweep %1"),
+    QT_TRANSLATE_NOOP("episcope::Step", "labeling, gap %1")};
+
+QString step_words(const std::string& step) {
+  const QString english = QString::fromStdString(step);
+  const QString words = schema_text(step);
+  if (words != english) return words;
+  for (const char* each : kComposedSteps) {
+    const QString begin = QString::fromLatin1(each).chopped(2);
+    if (!english.startsWith(begin)) continue;
+    return QCoreApplication::translate("episcope::Step", each).arg(english.mid(begin.size()));
+  }
+  return words;
+}
 
 }  // namespace
 
@@ -58,7 +84,7 @@ void Jobs::tellProgress() {
   for (auto& [id, job] : jobs_) {
     const auto news = std::exchange(job.news, std::nullopt);
     if (!news) continue;
-    emit progressed(id, news->fraction, schema_text(news->step));
+    emit progressed(id, news->fraction, step_words(news->step));
     has_told = true;
   }
   if (has_told) progress_.start(kTimeBetweenProgress);
