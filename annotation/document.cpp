@@ -32,7 +32,8 @@ AnnotationDocument::AnnotationDocument(LabelSet labels, ScribbleLayer scribbles,
     : labels_(std::move(labels)),
       scribbles_(std::move(scribbles)),
       boundary_smoothing_px_(smoothing_px),
-      history_(history_bytes) {}
+      history_(history_bytes),
+      saved_(content()) {}
 
 template <class Change>
 void AnnotationDocument::edit_labels(EditKind kind, const Change& change) {
@@ -47,6 +48,10 @@ int AnnotationDocument::add_label(const std::string& name, std::optional<Rgb> co
   int id = 0;
   edit_labels(EditKind::AddLabel, [&](LabelSet& labels) { id = labels.add(name, color); });
   return id;
+}
+
+void AnnotationDocument::add_painted_label() {
+  edit_labels(EditKind::AddPaintedLabel, [](LabelSet& labels) { labels.add(); });
 }
 
 void AnnotationDocument::rename_label(int id, const std::string& name) {
@@ -129,9 +134,19 @@ DocumentChange AnnotationDocument::apply(const Edit& edit) {
   return change;
 }
 
+bool AnnotationDocument::has_unsaved_changes() const {
+  return state() != saved_state_ && saved_ != content();
+}
+
+void AnnotationDocument::forget_saved() {
+  saved_state_ = kNoState;
+  saved_.reset();
+}
+
 void AnnotationDocument::mark_saved() {
   require_idle();
   saved_state_ = state();
+  saved_ = content();
   tell(DocumentStep::Saved, nullptr);
 }
 

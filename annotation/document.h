@@ -148,6 +148,8 @@ class AnnotationDocument {
 
   /// Each is one edit; a change to the same value is dropped. Throw InvalidInput as LabelSet does.
   int add_label(const std::string& name = {}, std::optional<Rgb> color = std::nullopt);
+  /// Adds a label that an edit needs (EditKind::AddPaintedLabel).
+  void add_painted_label();
   void rename_label(int id, const std::string& name);
   void recolor_label(int id, Rgb color);
   /// Also erases everything painted with it, on all views.
@@ -169,10 +171,11 @@ class AnnotationDocument {
   /// The state of the document, see History.
   [[nodiscard]] std::uint64_t state() const { return history_.state(); }
   [[nodiscard]] std::uint64_t saved_state() const { return saved_state_; }
-  [[nodiscard]] bool has_unsaved_changes() const { return state() != saved_state_; }
+  /// Whether the content differs from what was saved, or from the initial content.
+  [[nodiscard]] bool has_unsaved_changes() const;
   void mark_saved();
   /// Marks every state of this document as unsaved.
-  void forget_saved() { saved_state_ = kNoState; }
+  void forget_saved();
 
   /// Called after each step, before the call that made it returns; an exception of the observer
   /// reaches that caller, while the step remains. One observer; an empty function for none.
@@ -182,7 +185,16 @@ class AnnotationDocument {
  private:
   friend class PendingEdit;
   static constexpr std::uint64_t kNoState = UINT64_MAX;
+  struct Content {
+    std::vector<LabelInfo> labels;
+    ScribbleLayer scribbles;
+    double boundary_smoothing_px = 0;
+    friend bool operator==(const Content&, const Content&) = default;
+  };
 
+  [[nodiscard]] Content content() const {
+    return {labels_.labels(), scribbles_, boundary_smoothing_px_};
+  }
   void require_idle() const;
   void require_fitting(const Edit& edit) const;
   DocumentChange put(const Edit& edit, EditSide side);
@@ -200,6 +212,7 @@ class AnnotationDocument {
   double boundary_smoothing_px_ = 0;
   History<Edit> history_;
   std::uint64_t saved_state_ = 0;
+  std::optional<Content> saved_;
   bool is_editing_ = false;
   Observer observer_;
 };

@@ -24,11 +24,12 @@ enum class EditKind : std::uint8_t {
   Lasso,
   MergeLabel,
   RenumberLabel,
-  MoveLabel
+  MoveLabel,
+  AddPaintedLabel  ///< A label for the edit that follows; the two are undone and redone together.
 };
 
 /// The last of them: journals keep their numbers, so that new ones come after it.
-inline constexpr EditKind kLastEditKind = EditKind::MoveLabel;
+inline constexpr EditKind kLastEditKind = EditKind::AddPaintedLabel;
 
 /// Consecutive pixels of a row that had the same label and got the same label.
 struct LabelRun {

@@ -277,7 +277,7 @@ struct MainWindow::Core {
   explicit Core(MainWindow& window)
       : session(queued_post(&window)),
         frame(new Frame(&window)),
-        messages(*frame),
+        messages(*frame, session),
         job_cancel(session, jobs, messages, nullptr),
         viewer_area(new ViewerArea(frame)),
         commands(&window, frame->viewer()),
@@ -324,6 +324,11 @@ MainWindow::MainWindow(QWidget* parent)
   show_jobs(bench.jobs, bench.job_cancel, bench.frame, bench.messages);
   connect(&bench.document, &DocumentController::problem, &bench.messages,
           qOverload<const QString&>(&Messages::warn));
+  connect(&bench.document, &DocumentController::finding, &bench.messages,
+          [&messages = bench.messages](const QString& sentence) {
+            messages.warn(sentence);
+            messages.endWithLightField();
+          });
   connect(&bench.opener, &SceneOpener::failureIsOver, &bench.messages, &Messages::retract);
   bench.cancels.add(CancelRank::Job,
                     [&cancel = bench.job_cancel] { return cancel.cancelNewest(); });

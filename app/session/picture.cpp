@@ -88,7 +88,9 @@ void make_grey(RgbaImage& picture) {
 
 RgbaImage over_view(RgbaImage picture, const QuantityMap& map, const render::Shading& shading,
                     const OverlayLook& look) {
-  if (map.labels.empty() && !look.is_view_colored) make_grey(picture);
+  const bool is_covered =
+      map.labels.empty() || map.label_style.drawing != render::LabelDrawing::Contours;
+  if (is_covered && !look.is_view_colored) make_grey(picture);
   const RgbaImage over = overlay_picture(map, shading);
   const int weight = static_cast<int>(std::lround(look.opacity * 256));
   for (int y = 0; y < picture.height(); ++y) {

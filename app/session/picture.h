@@ -31,7 +31,7 @@ using RgbaImage = Image<std::uint8_t>;
 /// How a map lies over a view.
 struct OverlayLook {
   double opacity = 1;            ///< Of its opaque pixels, in [0, 1].
-  bool is_view_colored = false;  ///< Also under colors that stand for numbers.
+  bool is_view_colored = false;  ///< Also under a map; under contours of labels it always is.
 
   bool operator==(const OverlayLook&) const = default;
 };

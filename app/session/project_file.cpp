@@ -166,6 +166,7 @@ Json result_json(const ProjectResult& result, const fs::path& project) {
             {"display_range", interval_json(result.display_range)},
             {"shown", result.is_shown},
             {"compared", result.is_compared}};
+  if (result.was_shown_before) json["shown_before"] = true;
   if (!result.note.empty()) json["note"] = result.note;
   if (!result.foreign_file.empty()) json["foreign_file"] = result.foreign_file.string();
   return json;
@@ -218,6 +219,7 @@ ProjectResult result_of(const Json& json, const fs::path& project) {
           .display_range = interval_of(json.at("display_range")),
           .is_shown = json.at("shown"),
           .is_compared = json.at("compared"),
+          .was_shown_before = json.value("shown_before", false),
           .note = json.value("note", ""),
           .foreign_file = json.value("foreign_file", "")};
 }

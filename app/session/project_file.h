@@ -19,6 +19,7 @@ struct ProjectResult {
   Interval display_range{};    ///< EstimateEntry::display_range.
   bool is_shown = false;
   bool is_compared = false;
+  bool was_shown_before = false;         ///< B, although it was not chosen to be.
   std::string note{};                    ///< EstimateEntry::note.
   std::filesystem::path foreign_file{};  ///< EstimateEntry::foreign_file.
   int id = 0;              ///< EstimateEntry::id. Not part of a project file, as what follows.

@@ -185,7 +185,9 @@ ProjectScene project_scene_of(const OpenScene& open) {
   for (const EstimateEntry& entry : open.estimates) {
     ProjectResult result = result_of(entry);
     result.is_shown = entry.id == open.shown;
-    result.is_compared = entry.id == open.compared && open.is_compared_chosen;
+    const bool is_b = entry.id == open.compared;
+    result.is_compared = is_b && open.is_compared_chosen;
+    result.was_shown_before = is_b && !open.is_compared_chosen;
     scene.results.push_back(std::move(result));
   }
   for (const EstimateEntry& entry : open.unread) {
@@ -228,10 +230,8 @@ OpenScene scene_of(const ProjectScene& scene, bool is_saved) {
                               .note = result.note,
                               .foreign_file = result.foreign_file});
     if (result.is_shown) open.shown = id;
-    if (result.is_compared) {
-      open.compared = id;
-      open.is_compared_chosen = true;
-    }
+    if (result.is_compared || result.was_shown_before) open.compared = id;
+    if (result.is_compared) open.is_compared_chosen = true;
   }
   return open;
 }

@@ -18,6 +18,7 @@
 #include "engine/io/base/json.h"
 #include "engine/io/base/npy.h"
 #include "engine/io/formats/array_reader.h"
+#include "engine/io/formats/mosaic_layout.h"
 #include "engine/io/formats/mosaic_reader.h"
 #include "engine/io/formats/tiff_pages.h"
 #include "engine/io/formats/write_arrays.h"
@@ -481,6 +482,23 @@ std::uint64_t stated_hash(const fs::path& result) {
 
 }  // namespace
 
+namespace {
+
+/// Whether a folder is a light field; one plain picture alone need not be.
+bool is_light_field(const fs::path& folder) {
+  const io::FoundReader found = io::find_reader(folder, {});
+  if (!found.reader || !io::is_image_name(found.path)) return found.reader != nullptr;
+  if (io::mosaic_name(found.path) != io::MosaicName::Plain) return true;
+  try {
+    (void)io::find_mosaic_layout(io::decode_image(found.path), found.path, {});
+    return true;
+  } catch (const IoError&) {
+    return false;
+  }
+}
+
+}  // namespace
+
 ResultOwner owner_of_result(const fs::path& result, const LightField* front,
                             const std::string& front_input) {
   if (io::is_result_file(result)) {
@@ -491,7 +509,7 @@ ResultOwner owner_of_result(const fs::path& result, const LightField* front,
   std::error_code ignored;
   const bool is_beside_front =
       front && fs::exists(front_input, ignored) && io::is_inside_folder(front_input, folder);
-  const bool has_owner = !is_beside_front && io::find_reader(folder, {}).reader;
+  const bool has_owner = !is_beside_front && is_light_field(folder);
   return {has_owner ? folder.string() : "", false};
 }
 

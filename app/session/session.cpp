@@ -64,15 +64,17 @@ LightFieldPtr Session::light_field() const {
   return now_->scene ? now_->scene->light_field : nullptr;
 }
 
-int Session::add_estimate(EstimatePtr estimate, Interval display_range, std::uint64_t generation) {
+int Session::add_estimate(EstimatePtr estimate, Interval display_range, std::uint64_t generation,
+                          bool stays_aside) {
   OpenScene* scene = open_scene(generation);
   if (!scene || !estimate) return 0;
   const std::string name = new_name(scene->estimates, name_of_method(estimate->method));
-  const bool is_compared = is_comparing(*scene);
+  const bool has_other = !scene->estimates.empty() || (scene == now_ && live());
+  const bool is_new = has_other && (stays_aside || is_comparing(*scene));
   scene->estimates.push_back({++last_id_, name, std::move(estimate), display_range});
   changed(Part::Scenes);
   if (scene == now_) changed(Part::Estimates);
-  if (is_compared) {
+  if (is_new) {
     scene->estimates.back().is_new = true;
   } else if (scene == now_) {
     show_estimate(last_id_);
@@ -83,9 +85,7 @@ int Session::add_estimate(EstimatePtr estimate, Interval display_range, std::uin
   return last_id_;
 }
 
-bool Session::is_comparing(const OpenScene& scene) const {
-  const bool has_live = &scene == now_ && live();
-  if (scene.estimates.empty() && !has_live) return false;
+bool Session::is_comparing(const OpenScene& scene) {
   const bool is_b_chosen = scene.is_compared_chosen &&
                            std::ranges::count(scene.estimates, scene.compared, &EstimateEntry::id);
   return is_b_chosen || scene.place.comparison.shows_both();

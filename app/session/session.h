@@ -79,9 +79,10 @@ class Session {
 
   /// Adds an estimate to the open scene of this id and shows it there, unless another is being
   /// compared: with one that was chosen for it, or in a mode that shows two sides, be it with the
-  /// truth. It then is marked as new until it is chosen. Returns its id, or 0 if that scene was
-  /// closed: the estimate is dropped.
-  int add_estimate(EstimatePtr estimate, Interval display_range, std::uint64_t generation);
+  /// truth. It then is marked as new until it is chosen, as it is if it `stays_aside`. Returns its
+  /// id, or 0 if that scene was closed: the estimate is dropped.
+  int add_estimate(EstimatePtr estimate, Interval display_range, std::uint64_t generation,
+                   bool stays_aside = false);
   /// Shows the neighbor if the removed one was shown. Unknown ids are ignored.
   void remove_estimate(int id);
   /// Brings back a removed entry, with its id, at its former place in the list, and shows it. Its
@@ -239,8 +240,8 @@ class Session {
   [[nodiscard]] OpenScene* open_scene(std::uint64_t id) const;
   /// Null for an unknown id.
   [[nodiscard]] EstimateEntry* entry_of_any_scene(int id) const;
-  /// Whether a result of the scene is being compared.
-  [[nodiscard]] bool is_comparing(const OpenScene& scene) const;
+  /// Whether the user chose what to compare in the scene.
+  [[nodiscard]] static bool is_comparing(const OpenScene& scene);
   /// The user has chosen it.
   void see(EstimateEntry& entry);
 

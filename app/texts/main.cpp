@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // episcope_texts SOURCES: prints the English texts that the engine holds and the window shows, in a
 // form that Qt's lupdate reads. They come from tables and schemas, and from literal sentences in
-// SOURCES/engine.
+// SOURCES/engine and SOURCES/app/session.
 #include "engine/capture/calibrate.h"
 #include "engine/capture/rectify.h"
 #include "engine/core/error.h"
@@ -104,6 +104,7 @@ Texts schema_texts() {
   Texts texts;
   for (const Estimator& estimator : registered_estimators()) {
     add(texts, estimator.info.summary);
+    if (estimator.info.reference.starts_with("Own")) add(texts, estimator.info.reference);
     add(texts, estimator.parameters);
   }
   add(texts, labeler_schema().descriptions());
@@ -163,7 +164,9 @@ int main(int argc, char** argv) {
   try {
     if (argc != 2) throw std::runtime_error("usage: episcope_texts SOURCES");
     Texts texts = schema_texts();
-    texts.merge(literal_sentences(std::filesystem::path(argv[1]) / "engine"));
+    for (const char* folder : {"engine", "app/session"}) {
+      texts.merge(literal_sentences(std::filesystem::path(argv[1]) / folder));
+    }
     print("episcope::Schema", texts);
     print("episcope::render", quantity_texts());
     print("episcope::Finding", finding_texts());

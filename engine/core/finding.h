@@ -442,6 +442,9 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
      "White picture %1", FindingLevel::Note},
     {"plenoptic.white_steps", "white picture {} ({}); the raw picture has {}", "White picture %1",
      FindingLevel::Note},
+    {"plenoptic.decoded",
+     "decoded from {}: {} lenses of {:.2f} px, turned by {:.3f}°, views {:.3g} px apart", "",
+     FindingLevel::Note},
     {"plenoptic.dark", "dark picture {}", "Dark picture %1", FindingLevel::Note},
     {"plenoptic.no_white",
      "without a white picture the lenses were found in the raw picture itself, and their "

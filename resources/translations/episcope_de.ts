@@ -1919,10 +1919,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Kopiert: %1</translation>
     </message>
     <message>
-        <source>Belongs to another light field: %1. Its errors may be meaningless.</source>
-        <translation>Gehört zu einem anderen Lichtfeld: %1. Seine Fehler besagen vielleicht nichts.</translation>
-    </message>
-    <message>
         <source>Result…</source>
         <translation>Ergebnis…</translation>
     </message>
@@ -3331,6 +3327,10 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <source>white picture %1 (%2) is the nearest of %3 to the raw picture (%4), and better exposed than %5</source>
         <translation>Weißbild %1 (%2) ist von %3 das nächste zum Rohbild (%4) und besser belichtet als %5</translation>
     </message>
+    <message>
+        <source>decoded from %1: %2 lenses of %3 px, turned by %4°, views %5 px apart</source>
+        <translation>dekodiert aus %1: Linsen von %3 px (%2), um %4° gedreht, Ansichten im Abstand von %5 px</translation>
+    </message>
 </context>
 <context>
     <name>episcope::FocusController</name>
@@ -3739,14 +3739,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Alle Ansichten außer der mittleren sind interpoliert.</translation>
     </message>
     <message>
-        <source>“%1”</source>
-        <translation>„%1“</translation>
-    </message>
-    <message>
-        <source>“%1: %2”</source>
-        <translation>„%1: %2“</translation>
-    </message>
-    <message>
         <source>also at ten times the resolution</source>
         <translation>auch in zehnfacher Auflösung</translation>
     </message>
@@ -3850,6 +3842,18 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>%1 failed: %2</source>
         <translation>%1 fehlgeschlagen: %2</translation>
+    </message>
+    <message>
+        <source>%1. Set this in “Conventions…”.</source>
+        <translation>%1. Einstellen lässt sich das in „Konventionen…“.</translation>
+    </message>
+    <message>
+        <source>“%1: %2”</source>
+        <translation>„%1: %2“</translation>
+    </message>
+    <message>
+        <source>“%1”</source>
+        <translation>„%1“</translation>
     </message>
 </context>
 <context>
@@ -5604,6 +5608,10 @@ s</translation>
         <source>defaults</source>
         <translation>Standardwerte</translation>
     </message>
+    <message>
+        <source>Belongs to another light field: %1. Its errors may be meaningless.</source>
+        <translation>Gehört zu einem anderen Lichtfeld: %1. Seine Fehler besagen vielleicht nichts.</translation>
+    </message>
 </context>
 <context>
     <name>episcope::OverlayBar</name>
@@ -6645,10 +6653,6 @@ s</translation>
     <message>
         <source>“%1”</source>
         <translation>„%1“</translation>
-    </message>
-    <message>
-        <source>⚠ %1</source>
-        <translation>⚠ %1</translation>
     </message>
     <message>
         <source> · </source>
@@ -8558,6 +8562,46 @@ s</translation>
         <source>For all views: estimate the corners of the grid, too; without, the first view is carried to all others in half the time</source>
         <translation>Für alle Ansichten: auch die Ecken des Rasters schätzen; sonst wird die erste Ansicht in der halben Zeit auf alle anderen übertragen</translation>
     </message>
+    <message>
+        <source>Own; builds on Kolmogorov 2006 [Kol06] and Bredies et al. 2010 [BKP10]</source>
+        <translation>Eigenes Verfahren; baut auf Kolmogorov 2006 [Kol06] und Bredies u. a. 2010 [BKP10] auf</translation>
+    </message>
+    <message>
+        <source>Own; trained on procedural light fields alone: resources/training/README.md</source>
+        <translation>Eigenes Verfahren; nur mit prozeduralen Lichtfeldern trainiert: resources/training/README.md</translation>
+    </message>
+    <message>
+        <source>exposing the sensor</source>
+        <translation>Sensor wird belichtet</translation>
+    </message>
+    <message>
+        <source>identifying the samples</source>
+        <translation>Prüfsumme der Abtastwerte</translation>
+    </message>
+    <message>
+        <source>photographing the center view</source>
+        <translation>mittlere Ansicht wird fotografiert</translation>
+    </message>
+    <message>
+        <source>photographs of the built-in gantry</source>
+        <translation>Fotos des eingebauten Kameraportals</translation>
+    </message>
+    <message>
+        <source>reading the built-in scene</source>
+        <translation>eingebaute Szene wird gelesen</translation>
+    </message>
+    <message>
+        <source>rendering all views</source>
+        <translation>alle Ansichten werden gerendert</translation>
+    </message>
+    <message>
+        <source>rendering the center view</source>
+        <translation>mittlere Ansicht wird gerendert</translation>
+    </message>
+    <message>
+        <source>writing edges</source>
+        <translation>Kanten werden geschrieben</translation>
+    </message>
 </context>
 <context>
     <name>episcope::ScribbleController</name>
@@ -9074,10 +9118,6 @@ s</translation>
         <translation>Schlecht über</translation>
     </message>
     <message>
-        <source>Visible evaluated pixels that are off by more than the threshold</source>
-        <translation>Sichtbare bewertete Pixel, deren Fehler über der Schwelle liegt</translation>
-    </message>
-    <message>
         <source>%1 [%2]</source>
         <translation>%1 [%2]</translation>
     </message>
@@ -9088,6 +9128,53 @@ s</translation>
     <message>
         <source>%1 %</source>
         <translation>%1 %</translation>
+    </message>
+    <message>
+        <source>Visible pixels that are off by more than the threshold, without the border of 15 px, which the table ignores, too</source>
+        <translation>Sichtbare Pixel, die um mehr als die Schwelle abweichen, ohne den Rand von 15 px, den auch die Tabelle auslässt</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::Step</name>
+    <message>
+        <source>reading %1</source>
+        <translation>%1 wird gelesen</translation>
+    </message>
+    <message>
+        <source>writing %1</source>
+        <translation>%1 wird geschrieben</translation>
+    </message>
+    <message>
+        <source>rendering the scene %1</source>
+        <translation>Szene %1 wird gerendert</translation>
+    </message>
+    <message>
+        <source>exposing %1</source>
+        <translation>%1 wird belichtet</translation>
+    </message>
+    <message>
+        <source>photographing view %1</source>
+        <translation>Ansicht %1 wird fotografiert</translation>
+    </message>
+    <message>
+        <source>depth of view %1</source>
+        <translation>Tiefe der Ansicht %1</translation>
+    </message>
+    <message>
+        <source>matching view %1</source>
+        <translation>Ansicht %1 wird abgeglichen</translation>
+    </message>
+    <message>
+        <source>finding the pattern in %1</source>
+        <translation>Muster in %1 wird gesucht</translation>
+    </message>
+    <message>
+        <source>ordering, sweep %1</source>
+        <translation>Ordnung, Durchlauf %1</translation>
+    </message>
+    <message>
+        <source>labeling, gap %1</source>
+        <translation>Labeling, Lücke %1</translation>
     </message>
 </context>
 <context>
@@ -9416,10 +9503,6 @@ s</translation>
         <translation>Fehler Artikel speichern</translation>
     </message>
     <message>
-        <source>point cloud mesh save</source>
-        <translation>Punktwolke Netz speichern</translation>
-    </message>
-    <message>
         <source>zoom percent original</source>
         <translation>Zoom Prozent Original</translation>
     </message>
@@ -9494,6 +9577,26 @@ s</translation>
     <message>
         <source>documentation guide</source>
         <translation>Dokumentation Anleitung</translation>
+    </message>
+    <message>
+        <source>point cloud</source>
+        <translation>Punktwolke</translation>
+    </message>
+    <message>
+        <source>mesh save</source>
+        <translation>Netz speichern</translation>
+    </message>
+    <message>
+        <source>point cloud mesh depth</source>
+        <translation>Punktwolke Netz Tiefe</translation>
+    </message>
+    <message>
+        <source>histogram statistics scores errors</source>
+        <translation>Histogramm Statistik Maße Fehler</translation>
+    </message>
+    <message>
+        <source>plot curve distribution histogram</source>
+        <translation>Diagramm Kurve Verteilung Histogramm</translation>
     </message>
 </context>
 <context>

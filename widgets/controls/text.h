@@ -57,6 +57,11 @@ inline constexpr QChar kMinus(0x2212);
 /// Domain of a number or an interval, "0 … 10 px"; empty for other types.
 [[nodiscard]] QString domain_text(const ParameterDescription& description);
 
+/// A name with a warning sign.
+[[nodiscard]] inline QString warned_name(const QString& name) {
+  return QStringLiteral("⚠ ") + name;
+}
+
 /// Adds invisible break opportunities to long words: after the marks of names and paths, and within
 /// words that are too long. For display only, not for copying.
 [[nodiscard]] QString breakable(const QString& text);

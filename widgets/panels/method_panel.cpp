@@ -23,7 +23,8 @@
 namespace episcope {
 namespace {
 
-constexpr int kListWidth = 560;  // names and what the methods do
+constexpr int kListWidth = 560;          // names and what the methods do
+constexpr const char* kRange = "range";  // of every method; what it says is of the light field
 
 QPushButton* make_button(const char* name, const char* icon, const QString& text,
                          const QString& tip, QWidget* parent) {
@@ -137,7 +138,8 @@ void MethodPanel::setMethods(std::vector<MethodDescription> methods) {
 }
 
 void MethodPanel::showMethod(int index) {
-  if (shown_ >= 0) kept_values_[methods_[shown_].id] = form_->values();
+  const ParameterSet former = form_->values();
+  if (shown_ >= 0) kept_values_[methods_[shown_].id] = former;
   shown_ = index;
   const bool has_method = index >= 0;
   for (QWidget* widget : std::initializer_list<QWidget*>{method_, reset_}) {
@@ -145,7 +147,7 @@ void MethodPanel::showMethod(int index) {
   }
   const MethodDescription method = has_method ? methods_[index] : MethodDescription{};
   summary_->setText(schema_text(method.summary));
-  reference_->setText(QString::fromStdString(method.reference));
+  reference_->setText(schema_text(method.reference));
   reference_->setVisible(!method.reference.empty());
   all_views_->setEnabled(method.all_views);
   all_views_->setChecked(method.all_views);
@@ -153,6 +155,8 @@ void MethodPanel::showMethod(int index) {
   if (const auto kept = kept_values_.find(method.id); kept != kept_values_.end()) {
     form_->setValues(kept->second);
   }
+  if (const ParameterValue* range = find_value(former, kRange))
+    form_->setValues({{kRange, *range}});
   // The form has no horizontal scroll bar: it never gets less than it needs.
   scroll_->widget()->layout()->activate();
   scroll_->setMinimumWidth(scroll_->widget()->minimumSizeHint().width() +

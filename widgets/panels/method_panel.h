@@ -42,7 +42,7 @@ struct RunRequest {
 };
 
 /// Method and parameters, with Run, Live, Cancel, Reset and Copy as command. Remembers the values
-/// of each method.
+/// of each method, but the disparity range goes with the light field from method to method.
 class MethodPanel : public QWidget {
   Q_OBJECT
 

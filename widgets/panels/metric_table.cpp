@@ -29,6 +29,7 @@ constexpr double kHeaderScale = 0.88;
 constexpr int kSortArrowWidth = 14;
 constexpr int kColumnPadding = 7;
 constexpr int kWidestText = 150;
+constexpr int kNarrowestName = 70;
 constexpr int kSideWidth = 26;
 
 bool is_absent(const QVariant& value) {
@@ -92,6 +93,7 @@ MetricTable::MetricTable(QWidget* parent)
 
 void MetricTable::setUpTable() {
   table_->setAccessibleName(tr("Metrics of all results"));
+  table_->viewport()->installEventFilter(this);
   table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
   table_->setSelectionMode(QAbstractItemView::SingleSelection);
@@ -164,24 +166,37 @@ void MetricTable::fill() {
   for (auto* button : {copy_csv_, copy_latex_, save_}) button->setEnabled(!isEmpty());
 }
 
-// No wider than the text: a style would keep room for a sort arrow in every header.
+// No wider than the text: a style would keep room for a sort arrow in every header. Names of
+// results leave room for the numbers.
 void MetricTable::fitColumns() {
-  const QHeaderView* header = table_->horizontalHeader();
-  const QFontMetrics header_metrics(header->font());
-  for (int column = 0; column < table_->columnCount(); ++column) {
-    int header_width = header_metrics.size(0, table_->horizontalHeaderItem(column)->text()).width();
-    if (header->sortIndicatorSection() == column) header_width += kSortArrowWidth;
-    int width = header_width;
-    for (int row = 0; row < table_->rowCount(); ++row) {
-      const auto* item = table_->item(row, column);
-      if (!item) continue;  // the table is being filled
-      const int icon_width = item->icon().isNull() ? 0 : kSideWidth;
-      const int text_width =
-          QFontMetrics(item->font()).horizontalAdvance(item->text()) + icon_width;
-      width = std::max(width, std::min(text_width, kWidestText));
-    }
-    table_->setColumnWidth(column, width + kColumnPadding);
+  int room = table_->viewport()->width();
+  for (int column = table_->columnCount() - 1; column >= 0; --column) {
+    int width = widthOf(column);
+    if (column == 0) width = std::min(width, std::max(room, kNarrowestName));
+    table_->setColumnWidth(column, width);
+    if (!table_->isColumnHidden(column)) room -= width;
   }
+}
+
+int MetricTable::widthOf(int column) const {
+  const QHeaderView* header = table_->horizontalHeader();
+  const auto* label = table_->horizontalHeaderItem(column);
+  if (!label) return 0;  // the table is being filled, as below
+  int width = QFontMetrics(header->font()).size(0, label->text()).width();
+  if (header->sortIndicatorSection() == column) width += kSortArrowWidth;
+  for (int row = 0; row < table_->rowCount(); ++row) {
+    const auto* item = table_->item(row, column);
+    if (!item) continue;
+    const int icon_width = item->icon().isNull() ? 0 : kSideWidth;
+    const int text_width = QFontMetrics(item->font()).horizontalAdvance(item->text()) + icon_width;
+    width = std::max(width, std::min(text_width, kWidestText));
+  }
+  return width + kColumnPadding;
+}
+
+bool MetricTable::eventFilter(QObject* watched, QEvent* event) {
+  if (watched == table_->viewport() && event->type() == QEvent::Resize) fitColumns();
+  return QWidget::eventFilter(watched, event);
 }
 
 void MetricTable::fillRow(int row, const MetricRow& values) {
@@ -198,6 +213,10 @@ void MetricTable::fillRow(int row, const MetricRow& values) {
     if (is_text) item->setToolTip(value.toString());
     table_->setItem(row, static_cast<int>(i), item);
   }
+  if (values.warning.isEmpty()) return;
+  QTableWidgetItem* name = table_->item(row, 0);
+  name->setToolTip(name->text() + '\n' + values.warning);
+  name->setText(warned_name(name->text()));
 }
 
 void MetricTable::setSides(quint64 a, quint64 b) {
@@ -300,7 +319,10 @@ QString MetricTable::toLatex() const {
     for (int column = 0; column < table_->columnCount(); ++column) {
       if (isHidden(columns_[static_cast<std::size_t>(column)])) continue;
       const auto* item = table_->item(row, column);
-      cells.push_back(is_absent(item->data(kValueRole)) ? "--" : item->text().toStdString());
+      const QVariant value = item->data(kValueRole);
+      const bool is_text = value.typeId() == QMetaType::QString;
+      cells.push_back(is_absent(value) ? "--"
+                                       : (is_text ? value.toString() : item->text()).toStdString());
       stressed.push_back(item->font().bold());
     }
   }

@@ -32,6 +32,7 @@ struct MetricRow {
   quint64 id = 0;
   /// One value per column: a double, a string, or an invalid QVariant if the metric is missing.
   std::vector<QVariant> values;
+  QString warning{};  ///< The name then has a warning sign, and this in its tool tip.
   friend bool operator==(const MetricRow&, const MetricRow&) = default;
 };
 
@@ -73,12 +74,14 @@ class MetricTable : public QWidget {
 
  protected:
   void changeEvent(QEvent* event) override;
+  bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
   void setUpTable();
   void fill();
   void fillRow(int row, const MetricRow& values);
   void fitColumns();
+  [[nodiscard]] int widthOf(int column) const;
   void stressBest();
   void showMenu(const QPoint& position);
   void addColumnsTo(QMenu& menu);

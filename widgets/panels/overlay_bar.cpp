@@ -172,6 +172,7 @@ namespace {
 QComboBox* make_combo(const char* name, const QString& tip, QWidget* parent) {
   auto* combo = named(name, new QComboBox(parent));
   combo->setToolTip(tip);
+  combo->setAccessibleName(tip);
   combo->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
   combo->setMinimumWidth(90);
   combo->setMaxVisibleItems(20);
@@ -189,9 +190,13 @@ void fill(QComboBox* combo, const std::vector<CompareBar::Choice>& choices, quin
           const QString& placeholder) {
   const QSignalBlocker blocker(combo);
   combo->clear();
+  combo->setToolTip(combo->accessibleName());
   for (const auto& choice : choices) {
-    combo->addItem(choice.name, choice.id);
-    combo->setItemData(combo->count() - 1, choice.name, Qt::ToolTipRole);
+    const bool is_warned = !choice.warning.isEmpty();
+    const QString tip = is_warned ? choice.name + '\n' + choice.warning : choice.name;
+    combo->addItem(is_warned ? warned_name(choice.name) : choice.name, choice.id);
+    combo->setItemData(combo->count() - 1, tip, Qt::ToolTipRole);
+    if (is_warned && choice.id == current) combo->setToolTip(tip);
   }
   combo->setPlaceholderText(placeholder);
   combo->setCurrentIndex(combo->findData(current));

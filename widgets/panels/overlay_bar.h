@@ -80,6 +80,7 @@ class CompareBar : public QWidget {
   struct Choice {
     quint64 id = 0;
     QString name;
+    QString warning{};  ///< The name then has a warning sign, and this is its tool tip.
   };
 
   explicit CompareBar(QWidget* parent = nullptr);

@@ -142,7 +142,7 @@ void ResultList::setResults(const std::vector<ResultRow>& results) {
     QStringList aside{result.parameters};
     // Of a note, the first line.
     if (!result.note.isEmpty()) aside.prepend(tr("“%1”").arg(result.note.section('\n', 0, 0)));
-    if (!result.warning.isEmpty()) aside.prepend(tr("⚠ %1").arg(result.warning));
+    if (!result.warning.isEmpty()) aside.prepend(warned_name(result.warning));
     aside.removeAll({});
     item->setText(kParameters, aside.join(tr(" · ")));
     item->setTextAlignment(kMse, Qt::AlignRight | Qt::AlignVCenter);

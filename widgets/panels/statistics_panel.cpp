@@ -78,7 +78,9 @@ void StatisticsPanel::addThreshold(QGridLayout& layout) {
   auto* label = new QLabel(tr("Bad-pixel threshold"), this);
   label->setBuddy(threshold_);
   label->setToolTip(tip);
-  values_[kBad]->setToolTip(tr("Visible evaluated pixels that are off by more than the threshold"));
+  values_[kBad]->setToolTip(
+      tr("Visible pixels that are off by more than the threshold, without the border of 15 px, "
+         "which the table ignores, too"));
   auto* row = make_row({label, threshold_, kRoom}, {.spacing = theme::kSpacing});
   layout.addLayout(row, 4, 0, 1, static_cast<int>(names_.size()));
   connect(threshold_, &NumberSpin::valueChanged, this, &StatisticsPanel::badThresholdEdited);

@@ -475,9 +475,7 @@ std::vector<Arguments::Use> uses_of(const ShowRequest& request) {
           {{"--layer"}, has_layers, what},
           {{"--range", "--colormap"}, is_map && render::info_of(quantity).has_scale(), what},
           {{"--over-view"}, is_map, what},
-          {{"--color-view"},
-           request.opacity && render::info_of(quantity).has_scale(),
-           request.opacity ? what : "without --over-view"},
+          {{"--color-view"}, request.opacity.has_value(), "without --over-view"},
           {{"--legend"}, is_map && !movie && has_numbers(quantity), movie ? "on a movie" : what},
           {{"--threshold"}, quantity == Quantity::BadPixels, what + "; say --what bad_pixels"},
           {{"--fit"}, !movie, "on a movie, whose size is --width"},
@@ -529,8 +527,7 @@ bool parse(const VerbArguments& arguments, const std::stop_token& stop, ShowRequ
   parser.option("--over-view", request.opacity, real_value("OPACITY", 0, 1),
                 "Overlay the map on the view, with an opacity from 0 to 1");
   parser.flag("--color-view", request.is_view_colored,
-              "Keep the colors of the view under a map; without, it is grey where the colors of "
-              "the map stand for numbers");
+              "Keep the colors of the view under a map; without, it is grey");
   parser.flag("--overwrite", request.overwrite, Overwrite::Yes, "Replace another picture");
   parser.flag("--json", request.is_json, "Print one JSON object instead of a line");
   declare_movie_options(parser, request.movie);

@@ -242,7 +242,7 @@ PaintStyle AnnotateController::styleOf(const StrokeStart& start) const {
 
 bool AnnotateController::requireLabel() {
   if (bench_.labels.current() == 0) {
-    document_.edit([](AnnotationDocument& document) { document.add_label(); });
+    document_.edit([](AnnotationDocument& document) { document.add_painted_label(); });
   }
   const LabelInfo* label = bench_.labels.info();
   if (!label) return false;
@@ -412,6 +412,7 @@ namespace {
 QString edit_text(EditKind kind) {
   switch (kind) {
     case EditKind::Paint:
+    case EditKind::AddPaintedLabel:
       return AnnotateController::tr("stroke");
     case EditKind::Erase:
       return AnnotateController::tr("erasing");

@@ -5,6 +5,7 @@
 #include "app/gui/scene/viewer_area.h"
 #include "app/gui/shell/commands.h"
 #include "app/gui/shell/frame.h"
+#include "app/gui/shell/jobs.h"
 #include "app/session/scene_summary.h"
 #include "app/session/session.h"
 #include "engine/core/error.h"
@@ -30,7 +31,6 @@
 #include <QHeaderView>
 #include <QLabel>
 #include <QPushButton>
-#include <QRegularExpression>
 #include <QString>
 #include <QStringList>
 #include <QTreeWidget>
@@ -355,30 +355,12 @@ QString names_text(const Reading& reading) {
   return InfoPanelText::tr("%1 (set by you)").arg(names);
 }
 
-// A warning names options of the command line as “Conventions…” names them, which `conventions`
-// opens. Has a short line where the engine knows one.
+// `conventions` opens the options that a warning names. Has a short line where the engine knows
+// one.
 InfoWarning in_window(const std::string& warning, QAction* conventions) {
-  static const QRegularExpression option("--([a-z-]*[a-z])( all| \\d\\S*)?");
-  QString text = finding_words(warning);
-  const auto schema = io::open_schema();
-  bool has_options = false;
-  for (auto match = option.match(text); match.hasMatch();) {
-    const std::string key = match.captured(1).toStdString();
-    const auto& options = schema.descriptions();
-    const auto known = std::ranges::find(options, key, &ParameterDescription::key);
-    qsizetype end = match.capturedEnd();
-    if (known != options.end()) {
-      const QString value = match.captured(2).trimmed();
-      const QString label = schema_text(known->label);
-      const QString name = value.isEmpty() ? InfoPanelText::tr("“%1”").arg(label)
-                                           : InfoPanelText::tr("“%1: %2”").arg(label, value);
-      text.replace(match.capturedStart(), match.capturedLength(), name);
-      end = match.capturedStart() + name.size();
-      has_options = true;
-    }
-    match = option.match(text, end);
-  }
-  return {text, finding_brief(warning), has_options ? conventions : nullptr, is_note(warning)};
+  const QString text = finding_words(warning);
+  const QString named = with_conventions(text);
+  return {named, finding_brief(warning), named == text ? nullptr : conventions, is_note(warning)};
 }
 
 // The GPU that methods compute on.

@@ -261,6 +261,7 @@ void ToneController::look() {
       [this](bool is_dark) {
         if (!is_dark) return;
         bench_.messages.offer(tr("The views are dark."), tr("Brighten"), [this] { brighten(); });
+        bench_.messages.endWithLightField();
       });
 }
 

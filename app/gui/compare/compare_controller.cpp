@@ -129,12 +129,12 @@ void CompareController::update(Parts parts) {
 
 void CompareController::listChoices() {
   std::vector<CompareBar::Choice> choices;
-  if (const EstimateEntry* live = session_.live()) {
-    choices.push_back({static_cast<quint64>(live->id), QString::fromStdString(live->name)});
-  }
-  for (const EstimateEntry& entry : session_.estimates()) {
-    choices.push_back({static_cast<quint64>(entry.id), QString::fromStdString(entry.name)});
-  }
+  const auto add = [&choices](const EstimateEntry& entry) {
+    choices.push_back(
+        {static_cast<quint64>(entry.id), QString::fromStdString(entry.name), foreign_text(entry)});
+  };
+  if (const EstimateEntry* live = session_.live()) add(*live);
+  for (const EstimateEntry& entry : session_.estimates()) add(entry);
   const EstimateEntry* shown = session_.side_a();
   const EstimateEntry* compared = session_.side_b();
   bar_->setChoices(choices, shown ? static_cast<quint64>(shown->id) : 0,

@@ -2,6 +2,7 @@
 #include "app/gui/compare/metric_controller.h"
 
 #include "app/gui/compare/region_controller.h"
+#include "app/gui/scene/overlay.h"
 #include "app/gui/shell/commands.h"
 #include "app/gui/shell/dialogs.h"
 #include "app/gui/shell/frame.h"
@@ -170,10 +171,10 @@ void MetricController::fillTable() {
   add_text("note", tr("Note"));
   std::vector<MetricRow> rows;
   for (const Judged& each : judged) {
+    const EstimateEntry& entry = *session_.find_estimate(each.id);
     rows.push_back(row_of(each, places));
-    for (const QString& cell : provenanceOf(*session_.find_estimate(each.id))) {
-      rows.back().values.emplace_back(cell);
-    }
+    rows.back().warning = foreign_text(entry);
+    for (const QString& cell : provenanceOf(entry)) rows.back().values.emplace_back(cell);
   }
   mark_minor(columns, rows);
   table_->setTable(columns, rows);
@@ -258,7 +259,9 @@ void MetricController::score(std::vector<Scored> wanted) {
 
 void MetricController::tell(const std::vector<std::string>& notes) {
   for (const std::string& note : notes) {
-    if (told_.insert(note).second) bench_.messages.warn(finding_words(note));
+    if (!told_.insert(note).second) continue;
+    bench_.messages.warn(finding_words(note));
+    bench_.messages.endWithLightField();
   }
 }
 

@@ -212,12 +212,14 @@ void RegionController::takeMask(std::uint64_t scene, const std::string& path,
   if (!open || !open->scene || masks_[scene].path != path) return;
   const LightField& light_field = *open->scene->light_field;
   if (mask->height() != light_field.height() || mask->width() != light_field.width()) {
-    return bench_.messages.warn(tr("The mask has %1×%2 px, but the views have %3×%4 px: choose a "
-                                   "mask of the size of the views.")
-                                    .arg(mask->width())
-                                    .arg(mask->height())
-                                    .arg(light_field.width())
-                                    .arg(light_field.height()));
+    bench_.messages.warn(tr("The mask has %1×%2 px, but the views have %3×%4 px: choose a mask of "
+                            "the size of the views.")
+                             .arg(mask->width())
+                             .arg(mask->height())
+                             .arg(light_field.width())
+                             .arg(light_field.height()));
+    if (scene == bench_.session.generation()) bench_.messages.endWithLightField();
+    return;
   }
   masks_[scene].pixels = mask;
   JudgedPart part = open->place.judged;

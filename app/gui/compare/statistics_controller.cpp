@@ -130,7 +130,7 @@ void StatisticsController::count(const PixelRect& region) {
                          choice_.quantity != Quantity::Difference &&
                          choice_.quantity != Quantity::Truth;
   const EvaluationPtr evaluation =
-      is_result ? session.evaluation({choice_.estimate, session.view(), Protocol::Vmv2013})
+      is_result ? session.evaluation({choice_.estimate, session.view(), Protocol::Benchmark2016})
                 : nullptr;
   job_.start<Counted>(
       [map = map_, region, evaluation, threshold_px = session.bad_threshold_px(),

@@ -308,8 +308,7 @@ ResultRow EstimateController::rowOf(const EstimateEntry& entry) const {
   row.note = QString::fromStdString(entry.note);
   if (!entry.foreign_file.empty()) {
     row.warning = QString::fromStdString(entry.foreign_file.filename().string());
-    row.detail += '\n' + tr("Belongs to another light field: %1. Its errors may be meaningless.")
-                             .arg(QString::fromStdString(entry.foreign_file.string()));
+    row.detail += '\n' + foreign_text(entry);
   }
   row.is_new = entry.is_new;
   const EvaluationKey key{entry.id, judged_view(*session_.scene()), Protocol::Vmv2013};

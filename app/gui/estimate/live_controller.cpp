@@ -7,6 +7,7 @@
 #include "app/gui/shell/commands.h"
 #include "app/gui/shell/frame.h"
 #include "app/gui/shell/jobs.h"
+#include "app/gui/shell/panes.h"
 #include "app/session/load_scene.h"
 #include "app/session/session.h"
 #include "engine/disparity/registry.h"
@@ -215,17 +216,24 @@ void MethodRuns::run(const EstimateRequest& request, const OpenScene& scene, boo
                              request.options, progress);
       },
       [this, method, id = scene.id, was_asked_for](const FinishedEstimate& finished) {
-        const int added =
-            bench_.session.add_estimate(finished.estimate, finished.display_range, id);
+        const int added = bench_.session.add_estimate(finished.estimate, finished.display_range, id,
+                                                      isComparing(id));
         if (!was_asked_for) bench_.session.mark_saved(added);
         offerToShow(added);
         if (finished.warning.empty()) return;
         bench_.messages.warn(tr("%1: %2.").arg(method, finding_words(finished.warning)));
+        if (id == bench_.session.generation()) bench_.messages.endWithLightField();
       });
   runs_[job] = scene.id;
   bench_.jobs.setScene(job, scene.id);
   if (info.iterative) bench_.jobs.setIterative(job);
   emit changed();
+}
+
+bool MethodRuns::isComparing(std::uint64_t scene) const {
+  const Panes& panes = bench_.frame.panes();
+  return scene == bench_.session.generation() &&
+         (panes.isSeen("tab.compare") || panes.isSeen("tab.errors"));
 }
 
 void MethodRuns::offerToShow(int estimate) {

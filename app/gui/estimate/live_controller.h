@@ -87,6 +87,8 @@ class MethodRuns : public QObject {
 
  private:
   void cancelClosed();
+  /// Whether the tab that compares is in front, and shows this open scene.
+  [[nodiscard]] bool isComparing(std::uint64_t scene) const;
   /// Tells of a result that came while others were compared.
   void offerToShow(int estimate);
 

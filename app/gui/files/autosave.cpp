@@ -59,8 +59,8 @@ Autosave::~Autosave() {
 }
 
 void Autosave::follow(Parts parts) {
-  if (parts.has_any(Part::Scene | Part::Scenes | Part::Estimates | Part::Measured | Part::Capture |
-                    Part::Judged | Part::LabelLook)) {
+  if (parts.has_any(Part::Scene | Part::Scenes | Part::Estimates | Part::Shown | Part::Measured |
+                    Part::Capture | Part::Judged | Part::LabelLook)) {
     schedule();
   } else if (!later_.isActive()) {
     later_.start();

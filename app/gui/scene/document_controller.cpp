@@ -88,7 +88,7 @@ bool DocumentController::takeAside() {
   session_.set_unread_strokes(generation_, now_.stored);
   finish(now_);
   now_ = {};
-  emit problem((is_stored ? tr("The scribbles on “%1” belong to a light field of another size; "
+  emit finding((is_stored ? tr("The scribbles on “%1” belong to a light field of another size; "
                                "they are kept in the project.")
                           : tr("The scribbles on “%1” belong to a light field of another size; "
                                "they are offered again at the next start."))
@@ -106,7 +106,7 @@ void DocumentController::openDocument() {
     setDocument(make(session_.scene()->scribbles), true, {});
   } catch (const InvalidInput& error) {
     setDocument(make({}), false, {});
-    emit problem(tr("The scribbles of this light field cannot be edited: %1. They are left "
+    emit finding(tr("The scribbles of this light field cannot be edited: %1. They are left "
                     "unchanged; new scribbles are saved to another file.")
                      .arg(QString::fromUtf8(error.what())));
   }
@@ -308,13 +308,21 @@ void DocumentController::go(DocumentChange (AnnotationDocument::*step)()) {
   keepJournal();
   AnnotationDocument& document = now_.annotation->document();
   const std::uint64_t before = document.state();
+  const bool is_undo = step == &AnnotationDocument::undo;
+  const History<Edit>& history = document.history();
+  const Edit* edit = is_undo ? history.next_undo() : history.next_redo();
   DocumentChange change;
-  run([&] { change = (document.*step)(); });
+  run([&] {
+    change = (document.*step)();
+    const Edit* label = history.next_undo();
+    if (!label || label->kind != EditKind::AddPaintedLabel) return;
+    const DocumentChange other = (document.*step)();
+    change.views.insert(change.views.end(), other.views.begin(), other.views.end());
+    change.has_new_labels = true;
+  });
   if (document.state() == before) return;
   if (change.empty()) change = everything();  // made, but the journal failed
   tell(change);
-  const bool is_undo = step == &AnnotationDocument::undo;
-  const Edit* edit = is_undo ? document.history().next_redo() : document.history().next_undo();
   if (edit) emit steppedBack(change, *edit, is_undo);
 }
 

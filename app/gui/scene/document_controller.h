@@ -96,6 +96,8 @@ class DocumentController : public QObject {
   void unsavedChanged(bool has_unsaved_changes);
   /// Problem as a sentence for the user.
   void problem(const QString& sentence);
+  /// The scribbles of the light field that is shown cannot be used.
+  void finding(const QString& sentence);
 
  private:
   /// A document that is open.

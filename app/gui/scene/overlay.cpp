@@ -232,7 +232,9 @@ void Overlay::showLook() {
   const OverlayLook look = lookOf(quantity);
   viewer_area_.overlayBar()->setOpacity(look.opacity);
   viewer_area_.canvas()->setOverlayOpacity(look.opacity);
-  viewer_area_.canvas()->setGreyUnderOverlay(render::info_of(quantity).has_scale() &&
+  const bool is_covered = render::info_of(quantity).has_scale() ||
+                          session_.label_style().drawing != render::LabelDrawing::Contours;
+  viewer_area_.canvas()->setGreyUnderOverlay(quantity != Quantity::View && is_covered &&
                                              !look.is_view_colored);
 }
 
@@ -474,6 +476,12 @@ QStringList sample_texts(const LightField& light_field, ViewIndex view, PixelInd
       },
       light_field.samples());
   return texts;
+}
+
+QString foreign_text(const EstimateEntry& entry) {
+  if (entry.foreign_file.empty()) return {};
+  return Overlay::tr("Belongs to another light field: %1. Its errors may be meaningless.")
+      .arg(QString::fromStdString(entry.foreign_file.string()));
 }
 
 QString named_value(const Estimate& estimate, const std::string& key, const ParameterValue& value) {

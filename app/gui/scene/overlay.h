@@ -120,7 +120,7 @@ class Overlay : public QObject {
   /// How a quantity lies over the view. Each of the two kinds of maps keeps its opacity: errors and
   /// differences begin opaque, so that their colors are those of the legend.
   [[nodiscard]] OverlayLook lookOf(render::Quantity quantity) const;
-  /// Sets whether the view keeps its colors under colors that stand for numbers.
+  /// Sets whether the view keeps its colors under maps.
   void setViewColored(bool is_colored);
   [[nodiscard]] bool isViewColored() const { return is_view_colored_; }
   /// Source of a choice's map in the current view; none if there is none, or not yet.
@@ -190,6 +190,9 @@ class Overlay : public QObject {
 /// Stored samples of a pixel, one text per channel.
 [[nodiscard]] QStringList sample_texts(const LightField& light_field, ViewIndex view,
                                        PixelIndex pixel);
+
+/// Says that a result belongs to another light field; empty if it does not.
+[[nodiscard]] QString foreign_text(const EstimateEntry& entry);
 
 /// A parameter of an estimate as forms name it: "Inner scale 1.2 px".
 [[nodiscard]] QString named_value(const Estimate& estimate, const std::string& key,

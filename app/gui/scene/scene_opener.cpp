@@ -73,7 +73,7 @@ ReadingQuestion::ReadingQuestion(const io::Undecided& question, QWidget* parent)
   auto* file = new ElidedLabel(this, Qt::ElideMiddle);
   file->setFullText(QString::fromStdString(question.path().string()));
   layout->addWidget(file);
-  layout->addWidget(paragraph(sentence(question.reason()), this));
+  layout->addWidget(paragraph(with_conventions(sentence(question.reason())), this));
   for (std::size_t i = 0; i < choices_.size(); ++i) {
     auto* button = named("readingQuestion." + QString::fromStdString(choices_[i].value),
                          new QRadioButton(schema_text(choices_[i].label), this));
@@ -358,7 +358,7 @@ void SceneOpener::start(const Load& load) {
 void SceneOpener::ask(const Load& load, const io::Undecided& question) {
   last_failure_ = tr("%1: %2. “Conventions…” lets you choose.")
                       .arg(QString::fromStdString(question.path().string()),
-                           QString::fromStdString(question.reason()));
+                           with_conventions(QString::fromStdString(question.reason())));
   has_asked_ = true;
   auto* dialog = new ReadingQuestion(question, viewer_area_.canvas()->window());
   dialog->setAttribute(Qt::WA_DeleteOnClose);

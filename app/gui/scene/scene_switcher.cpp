@@ -260,7 +260,10 @@ void ResultOpener::openAs(const Request& request) {
                   .arg(name));
         } else if (!read.poor_fit.empty()) {
           messages_.warn(QString("%1: %2.").arg(name, QString::fromStdString(read.poor_fit)));
+        } else {
+          return;
         }
+        messages_.endWithLightField();
       });
 }
 

@@ -2,6 +2,7 @@
 #include "app/gui/shell/frame.h"
 
 #include "app/gui/shell/panes.h"
+#include "app/session/session.h"
 #include "widgets/canvas/canvas_geometry.h"
 #include "widgets/controls/layout.h"
 #include "widgets/controls/theme.h"
@@ -15,6 +16,7 @@
 #include <QtMath>
 
 #include <algorithm>
+#include <utility>
 
 namespace episcope {
 namespace {
@@ -330,8 +332,11 @@ void Floating::place() {
   }
 }
 
-Messages::Messages(Frame& frame) : bar_(new MessageBar(&frame)) {
+Messages::Messages(Frame& frame, Session& session) : bar_(new MessageBar(&frame)) {
   frame.addFloating(bar_);
+  session.on_changed([this](Parts parts) {
+    if (parts.has(Part::Scene)) retract(std::exchange(of_light_field_, {}));
+  });
 }
 
 void Messages::warn(const QString& sentence) {

@@ -23,6 +23,7 @@ namespace episcope {
 
 class Floating;
 class Panes;
+class Session;
 
 /// A tab on the right, or a page of one: each task has a tab, and what belongs to a task is a page.
 struct Tab {
@@ -158,7 +159,7 @@ class Messages : public QObject {
   Q_OBJECT
 
  public:
-  explicit Messages(Frame& frame);
+  Messages(Frame& frame, Session& session);
 
   /// Tells what to do first; no failure.
   void hint(const QString& sentence) { bar_->showMessage(Severity::Info, sentence); }
@@ -166,6 +167,8 @@ class Messages : public QObject {
   void warn(const QString& sentence);
   /// The same with a button that remedies it.
   void warn(const QString& sentence, const QString& button, std::function<void()> run);
+  /// Takes the message that is shown away together with the light field that it is about.
+  void endWithLightField() { of_light_field_ = bar_->text(); }
   void fail(const QString& sentence) { bar_->showMessage(Severity::Error, sentence); }
   /// Shows "Saved: …".
   void written(const QString& path) { success(tr("Saved: %1").arg(path)); }
@@ -180,6 +183,7 @@ class Messages : public QObject {
 
  private:
   MessageBar* bar_;
+  QString of_light_field_;
 };
 
 }  // namespace episcope

@@ -3,12 +3,16 @@
 
 #include "app/gui/shell/frame.h"
 #include "engine/core/error.h"
+#include "engine/io/models/open_options.h"
 #include "widgets/controls/message_bar.h"
 #include "widgets/controls/text.h"
 
+#include <QCoreApplication>
 #include <QMetaObject>
+#include <QRegularExpression>
 
 #include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <utility>
 
@@ -16,6 +20,31 @@ namespace episcope {
 namespace {
 
 constexpr std::chrono::milliseconds kTimeBetweenProgress{100};
+
+// Steps that the engine composes of a name or numbers.
+constexpr const char* kComposedSteps[] = {
+    QT_TRANSLATE_NOOP("episcope::Step", "reading %1"),
+    QT_TRANSLATE_NOOP("episcope::Step", "writing %1"),
+    QT_TRANSLATE_NOOP("episcope::Step", "rendering the scene %1"),
+    QT_TRANSLATE_NOOP("episcope::Step", "exposing %1"),
+    QT_TRANSLATE_NOOP("episcope::Step", "photographing view %1"),
+    QT_TRANSLATE_NOOP("episcope::Step", "depth of view %1"),
+    QT_TRANSLATE_NOOP("episcope::Step", "matching view %1"),
+    QT_TRANSLATE_NOOP("episcope::Step", "finding the pattern in %1"),
+    QT_TRANSLATE_NOOP("episcope::Step", "ordering, sweep %1"),
+    QT_TRANSLATE_NOOP("episcope::Step", "labeling, gap %1")};
+
+QString step_words(const std::string& step) {
+  const QString english = QString::fromStdString(step);
+  const QString words = schema_text(step);
+  if (words != english) return words;
+  for (const char* each : kComposedSteps) {
+    const QString begin = QString::fromLatin1(each).chopped(2);
+    if (!english.startsWith(begin)) continue;
+    return QCoreApplication::translate("episcope::Step", each).arg(english.mid(begin.size()));
+  }
+  return words;
+}
 
 }  // namespace
 
@@ -55,7 +84,7 @@ void Jobs::tellProgress() {
   for (auto& [id, job] : jobs_) {
     const auto news = std::exchange(job.news, std::nullopt);
     if (!news) continue;
-    emit progressed(id, news->fraction, schema_text(news->step));
+    emit progressed(id, news->fraction, step_words(news->step));
     has_told = true;
   }
   if (has_told) progress_.start(kTimeBetweenProgress);
@@ -65,7 +94,12 @@ void Jobs::finish(quint64 id, const std::exception_ptr& failure) {
   const QString title = jobs_[id].title;
   jobs_.erase(id);
   emit removed(id);
-  if (failure) emit failed(tr("%1 failed: %2").arg(title, schema_text(failure_text(failure))), id);
+  if (!failure) return;
+  const QString reason = schema_text(failure_text(failure));
+  const QString named = with_conventions(reason);
+  QString sentence = tr("%1 failed: %2").arg(title, named);
+  if (named != reason) sentence = tr("%1. Set this in “Conventions…”.").arg(sentence);
+  emit failed(sentence, id);
 }
 
 void Jobs::cancel(quint64 id) {
@@ -180,6 +214,33 @@ void show_jobs(Jobs& jobs, JobCancel& cancel, Frame& frame, Messages& messages) 
                    [&cancel](quint64 id) { cancel.cancel({id}); });
   QObject::connect(panel, &JobPanel::finishRequested, &jobs, &Jobs::finishEarly);
   QObject::connect(&jobs, &Jobs::failed, &messages, &Messages::fail);
+}
+
+QString with_conventions(QString sentence) {
+  static const QRegularExpression option(
+      "--([a-z-]*[a-z])(?: ('[^']*'|-?\\d\\S*?|[A-Za-z]\\S*?)(?=[.,;:)]*(?:\\s|$)))?");
+  const auto schema = io::open_schema();
+  const auto& options = schema.descriptions();
+  for (auto match = option.match(sentence); match.hasMatch();) {
+    qsizetype end = match.capturedEnd(1);
+    const auto known =
+        std::ranges::find(options, match.captured(1).toStdString(), &ParameterDescription::key);
+    if (known != options.end()) {
+      const std::string value = match.captured(2).remove('\'').toStdString();
+      const bool is_choice = std::ranges::count(known->choices, value) > 0;
+      const bool is_word = !value.empty() && std::islower(static_cast<unsigned char>(value[0]));
+      const bool has_value = !value.empty() && (is_choice || value == "all" || !is_word);
+      const QString label = schema_text(known->label);
+      const QString shown = is_choice ? value_text(*known, value) : QString::fromStdString(value);
+      const QString name =
+          has_value ? Jobs::tr("“%1: %2”").arg(label, shown) : Jobs::tr("“%1”").arg(label);
+      const qsizetype begin = match.capturedStart();
+      sentence.replace(begin, (has_value ? match.capturedEnd() : end) - begin, name);
+      end = begin + name.size();
+    }
+    match = option.match(sentence, end);
+  }
+  return sentence;
 }
 
 JobRunner::Post queued_post(QObject* context) {

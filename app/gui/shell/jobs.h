@@ -209,6 +209,9 @@ class JobCancel : public QObject {
 /// Shows the jobs with their buttons below the tabs, and reports failures to the user.
 void show_jobs(Jobs& jobs, JobCancel& cancel, Frame& frame, Messages& messages);
 
+/// Names options of the command line as “Conventions…” does: “Views to keep: all” for "--crop all".
+[[nodiscard]] QString with_conventions(QString sentence);
+
 /// Posts closures from any thread to the event loop of `context`'s thread; drops them when
 /// `context` is destroyed. Posters must have ended before that.
 [[nodiscard]] JobRunner::Post queued_post(QObject* context);

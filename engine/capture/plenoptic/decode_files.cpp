@@ -167,9 +167,9 @@ constexpr const char* kDecodedFrom = "decoded from ";
 /// Raw picture, lenses and facts in one line.
 std::string origin_text(const Decoded& decoded, const RawPicture& raw) {
   const LensGrid& grid = decoded.grid;
-  std::string text = fmt::format(
-      "{}{}: {} lenses of {:.2f} px, turned by {:.3f}°, views {:.3g} px apart", kDecodedFrom,
-      raw.name, lattice_name(grid.lattice), grid.pitch_px, grid.rotation_degrees, decoded.step_px);
+  std::string text =
+      fmt::format(finding_text("plenoptic.decoded"), raw.name, lattice_name(grid.lattice),
+                  grid.pitch_px, grid.rotation_degrees, decoded.step_px);
   const auto facts = raw.facts.table();
   if (facts.empty()) return text;
   return text + "; " +

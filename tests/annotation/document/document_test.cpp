@@ -414,6 +414,16 @@ class DocumentTest : public QObject {
     QVERIFY(document.has_unsaved_changes());
   }
 
+  void erasedStroke_isNoChange() {
+    AnnotationDocument document = document_with_labels(1);
+    document.mark_saved();
+
+    paint(document, kView, {}, {5, 5}, {9, 9});
+    paint(document, kView, {PaintTool::Eraser}, {5, 5}, {9, 9});
+
+    QVERIFY(!document.has_unsaved_changes());
+  }
+
   void otherSteps_areRefusedDuringAStroke() {
     AnnotationDocument document = document_with_labels(1);
     Stroke stroke(document, kView, {});

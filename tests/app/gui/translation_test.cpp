@@ -181,7 +181,7 @@ class Wrapper : public QTranslator {
   }
 
  private:
-  // Steps of jobs that the engine composes of numbers and names stay in English.
+  // Of numbers and names: what the window knows of them is looked up elsewhere.
   static bool is_composed(const char* context, const QString& text) {
     static const QRegularExpression data("[0-9]|\\.(h5|png)\\b|^rendering the scene ");
     return QLatin1String(context) == QLatin1String("episcope::Schema") && text.contains(data);

@@ -94,7 +94,7 @@ expect("label in a focus plane" 0
 picture_of(remembered wrong_labels a/segments.h5)
 picture_of(repeated wrong_labels a/segments.h5 --focus 2)
 expect_equal("labels with a focus plane" ${remembered} ${repeated})
-picture_of(shown segmentation a/segments.h5 --over-view 0)
+picture_of(shown segmentation a/segments.h5 --over-view 0 --color-view)
 picture_of(focused view a/lf.h5 --focus 2)
 expect_equal("the view of labels with a focus plane" ${shown} ${focused})
 expect("another focus plane of labels" 1 ERR "with --focus=2, but --focus=0 .*leave --focus out"
@@ -132,7 +132,7 @@ expect("difference from a flipped result" 0
 
 expect("label with a flip" 0 ERR "chosen by hand"
        ARGS label a/lf.h5 -o a/flipped.h5 --features image --trees 4 --flip u)
-picture_of(shown segmentation a/flipped.h5 --over-view 0)
+picture_of(shown segmentation a/flipped.h5 --over-view 0 --color-view)
 expect_equal("the view of labels with a flip" ${shown} ${flipped})
 
 # Units of the true depth: the estimate is the same, the truth is not.

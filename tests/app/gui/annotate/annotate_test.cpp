@@ -5,6 +5,7 @@
 #include "app/gui/annotate/scribble_controller.h"
 #include "app/gui/scene/scene_opener.h"
 #include "app/gui/shell/commands.h"
+#include "app/session/annotation_journal.h"
 #include "app/session/session.h"
 #include "tests/app/gui/annotating.h"
 #include "tests/widgets/pictures.h"
@@ -60,6 +61,7 @@ class AnnotateTest : public QObject {
   void heldFill_isTakenBack_byAnotherViewOrTool();
   void undo_jumpsToTheViewItChanges();
   void brushWithoutLabels_addsOne();
+  void undoneFirstStroke_leavesNothingToSave();
   void removedLabel_isAskedForOnlyIfPainted();
   void carriedLabels_neverCoverPaintedOnes();
   void otherTab_goesBackToBrowsing();
@@ -443,6 +445,21 @@ void AnnotateTest::brushWithoutLabels_addsOne() {
   QCOMPARE(f.document().labels().labels().size(), std::size_t{1});
   QCOMPARE(f.window.bench().labels.current(), 1);
   QCOMPARE(f.labelAt({40, 40}), 1);
+}
+
+void AnnotateTest::undoneFirstStroke_leavesNothingToSave() {
+  Annotating f;
+  f.drag({40, 20}, {40, 20});
+  QVERIFY(f.window.isWindowModified());
+  const auto journal = f.window.bench().document.editedDocuments().front().journal;
+
+  f.key(Qt::Key_Z, Qt::ControlModifier);
+
+  QVERIFY(f.document().labels().labels().empty());
+  QVERIFY(!f.window.isWindowModified());
+  QVERIFY(!read_journal(journal).document.has_unsaved_changes());  // nothing to recover
+  f.key(Qt::Key_Y, Qt::ControlModifier);
+  QCOMPARE(f.labelAt({40, 20}), 1);
 }
 
 void AnnotateTest::removedLabel_isAskedForOnlyIfPainted() {

@@ -18,6 +18,7 @@
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QHeaderView>
+#include <QScrollBar>
 #include <QTabWidget>
 #include <QTableWidget>
 #include <QTreeWidget>
@@ -62,6 +63,7 @@ class CompareTest : public QObject {
   void resultOfAJob_leavesAComparisonAlone();
   void openedResult_isShownInTheSingleView();
   void rowOfTheMetricTable_showsItsResult();
+  void longNames_leaveTheNumbersInSight();
   void metricTable_isCopiedByKey();
   void statistics_areOfWhatIsInSight();
   void automaticRange_isThatOfWhatIsInSight();
@@ -70,6 +72,7 @@ class CompareTest : public QObject {
   void withoutResults_nothingCanBeCompared();
   void closedScene_leavesEveryMode();
   void badPixels_followTheirThreshold();
+  void badPixels_ofTheWholeView_areThoseOfTheTable();
   void truth_isMarkedAsNeitherSide();
 };
 
@@ -127,6 +130,27 @@ void CompareTest::flip_marksWhichOneIsSeen() {
   QVERIFY(epi_of_a != epi_of_b);  // the line and its label are of B, too
   QCOMPARE(epi->grab().toImage(), epi_of_a);
   QCOMPARE(f.canvas()->grab().toImage(), of_a);
+}
+
+void CompareTest::badPixels_ofTheWholeView_areThoseOfTheTable() {
+  WindowFixture f;
+  f.openSmall();
+  f.runAndWait();
+  f.trigger("overlay.bad_pixels");
+  f.trigger("tab.compare");
+  const auto* table = f.window.findChild<QTableWidget*>("metrics.table");
+  const auto bad_of_table = [table] {
+    for (int column = 0; column < table->columnCount(); ++column) {
+      const bool is_bad = table->horizontalHeaderItem(column)->text() == "2016\nbad .07";
+      if (is_bad && table->item(0, column)) return table->item(0, column)->text();
+    }
+    return QString();
+  };
+  QTRY_VERIFY_WITH_TIMEOUT(!bad_of_table().isEmpty(), kPatience);
+
+  const auto* panel = f.window.findChild<StatisticsPanel*>();
+  QTRY_VERIFY2_WITH_TIMEOUT(panel->text().contains("bad " + bad_of_table() + " %"),
+                            qPrintable(panel->text() + " · " + bad_of_table()), kPatience);
 }
 
 void CompareTest::truth_isMarkedAsNeitherSide() {
@@ -236,6 +260,8 @@ void CompareTest::resultOfAJob_leavesAComparisonAlone_data() {
   QTest::newRow("wipe of two") << 2 << "compare.wipe";
   QTest::newRow("wipe of one and the truth") << 1 << "compare.wipe";
   QTest::newRow("B was chosen") << 2 << QString();
+  QTest::newRow("numbers of two") << 2 << "tab.compare";
+  QTest::newRow("plots of two") << 2 << "tab.errors";
 }
 
 // Run by key.
@@ -291,6 +317,23 @@ void CompareTest::rowOfTheMetricTable_showsItsResult() {
   // Off by less: the best MSE.
   QTRY_VERIFY_WITH_TIMEOUT(table->item(0, 1)->font().bold(), kPatience);
   QVERIFY(!table->item(1, 1)->font().bold());
+}
+
+void CompareTest::longNames_leaveTheNumbersInSight() {
+  Compared f({0.1F, 0.2F});
+  f.window.resize(1280, 800);
+  const QString name = "structure tensor with a long name and its parameters";
+  f.session().rename_estimate(f.ids[0], name.toStdString());
+  f.trigger("tab.compare");
+  const auto* table = f.window.findChild<QTableWidget*>("metrics.table");
+
+  QTRY_VERIFY_WITH_TIMEOUT(
+      table->rowCount() == 2 && table->columnCount() > 7 && table->item(0, 1)->text() != "–",
+      kPatience);
+
+  QCOMPARE(table->horizontalScrollBar()->maximum(), 0);
+  QCOMPARE(table->item(0, 0)->toolTip(), name);
+  QVERIFY(table->columnWidth(0) < table->fontMetrics().horizontalAdvance(name));
 }
 
 void CompareTest::metricTable_isCopiedByKey() {

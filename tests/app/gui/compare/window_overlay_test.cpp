@@ -54,7 +54,7 @@ class OverlayTest : public QObject {
   void badPixels_haveTwoSwatchesWithTheThreshold();
   void rangeOfASignedMap_hasZeroInTheMiddle();
   void colorsOfErrors_areThoseOfTheLegend();
-  void view_isGreyUnderNumbersUntilColorIsAskedFor();
+  void view_isGreyUnderMapsUntilColorIsAskedFor();
   void heldTab_flips();
   void hugeTruth_leavesTheLayoutAlone();
   void savedPicture_isTheShownOne();
@@ -203,7 +203,7 @@ void OverlayTest::colorsOfErrors_areThoseOfTheLegend() {
   QVERIFY(compared > 10);
 }
 
-void OverlayTest::view_isGreyUnderNumbersUntilColorIsAskedFor() {
+void OverlayTest::view_isGreyUnderMapsUntilColorIsAskedFor() {
   WindowFixture f;
   f.openSmall();
   auto* canvas = f.window.bench().viewer_area.canvas();
@@ -215,11 +215,13 @@ void OverlayTest::view_isGreyUnderNumbersUntilColorIsAskedFor() {
 
   choose_map(f.window, "Labels");
   QTRY_VERIFY_WITH_TIMEOUT(!f.window.bench().overlay.picture().isNull(), kPatience);
-  QCOMPARE(shown(), view);
-  choose_map(f.window, "Ground");
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().overlay.isUpToDate(), kPatience);
   const int grey = qGray(view.rgb());
   QVERIFY(view != QColor(grey, grey, grey));
+  QCOMPARE(shown(), QColor(grey, grey, grey));
+  f.trigger("annotate.drawing");  // contours cover nothing
+  QTRY_COMPARE(shown(), view);
+  choose_map(f.window, "Ground");
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().overlay.isUpToDate(), kPatience);
   QCOMPARE(shown(), QColor(grey, grey, grey));
   save_picture(f.window.bench(), f.path("truth.png"));
   QTRY_VERIFY_WITH_TIMEOUT(QFile::exists(f.path("truth.png")), kPatience);

@@ -11,7 +11,9 @@
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
 #include "widgets/controls/message_bar.h"
+#include "widgets/controls/parameter_form.h"
 #include "widgets/controls/text.h"
+#include "widgets/panels/method_panel.h"
 #include "widgets/panels/value_bar.h"
 
 #include <QAbstractButton>
@@ -24,6 +26,7 @@
 #include <QGuiApplication>
 #include <QPushButton>
 #include <QRegularExpression>
+#include <QTableWidget>
 #include <QTreeWidget>
 
 #include <algorithm>
@@ -65,6 +68,7 @@ class ResultsTest : public QObject {
   void resultsOfTheFormerLightField_areNotListedBesideAPreview();
   void run_listsItsResultWithItsError();
   void nothingRuns_whileAnotherLightFieldIsRead();
+  void rangeSetByHand_staysForOtherMethods();
   void exportedResult_readsBack();
   void exportedMap_marksInvalidPixels();
   void submittedResult_isAccepted();
@@ -156,6 +160,17 @@ void ResultsTest::nothingRuns_whileAnotherLightFieldIsRead() {
   area.endPreview();
 
   QVERIFY(can_run() == std::vector<bool>(7, true));
+}
+
+void ResultsTest::rangeSetByHand_staysForOtherMethods() {
+  const WindowFixture f;
+  auto& panel = find<MethodPanel>(f.window);
+  const ParameterSet range{{"range", IntervalOrAuto(Interval{-1, 2})}};
+  panel.form()->setValues(range);
+
+  panel.setCurrentMethod("epi_s");
+
+  QVERIFY(*find_value(panel.request().values, "range") == range[0].second);
 }
 
 void ResultsTest::exportedResult_readsBack() {
@@ -327,6 +342,20 @@ void ResultsTest::resultOfOtherSamples_isOpenedWithAWarning() {
   QCOMPARE(messages->severity(), Severity::Warning);
   QCOMPARE(f.window.bench().session.estimates()[1].foreign_file.filename().string(),
            std::string("foreign.h5"));
+  f.trigger("tab.compare");
+  const auto* table = f.window.findChild<QTableWidget*>("metrics.table");
+  const auto* a = f.window.findChild<QComboBox*>("compare.a");
+  QTRY_COMPARE_WITH_TIMEOUT(table->rowCount(), 2, kPatience);
+  const QString name = QString::fromStdString(f.window.bench().session.estimates()[1].name);
+  QTRY_COMPARE(table->item(1, 0)->text(), "⚠ " + name);
+  QCOMPARE(a->currentText(), "⚠ " + name);
+  for (const QString& tip : {table->item(1, 0)->toolTip(), a->toolTip()}) {
+    QVERIFY2(tip.contains("Belongs to another light field"), qPrintable(tip));
+  }
+
+  f.openSmall("slant");
+
+  QVERIFY(!messages->isVisible());
 }
 
 // Its true depth would be taken for disparity.

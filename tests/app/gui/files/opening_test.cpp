@@ -103,6 +103,8 @@ class OpeningTest : public QObject {
   void dialogForFiles_opensAFolder_data();
   void dialogForFiles_opensAFolder();
   void mapBesideViews_offersItsLightField();
+  void failedOpening_namesOptionsAsTheWindowDoes();
+  void mapBesideOnePicture_isOfTheLightFieldInFront();
   void mapAboveTheViewsInFront_isTheirs();
   void resultsAlone_openWithTheirLightField();
   void resultsAlone_openBesideABrokenOne();
@@ -424,6 +426,36 @@ void OpeningTest::mapBesideViews_offersItsLightField() {
   choose(f, f.path("edge/map.pfm"));  // it belongs to the light field in front now
   QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().session.estimates().size(), 1U, kScenePatience);
   QVERIFY(f.window.bench().session.estimates()[0].foreign_file.empty());
+}
+
+void OpeningTest::failedOpening_namesOptionsAsTheWindowDoes() {
+  WindowFixture f;
+  QImage picture(96, 96, QImage::Format_RGB32);
+  picture.fill(Qt::gray);
+  QVERIFY(picture.save(f.path("picture.png")));
+
+  f.window.bench().opener.open(f.path("picture.png"));
+
+  const auto* messages = f.window.findChild<MessageBar*>("messageBar");
+  QTRY_VERIFY_WITH_TIMEOUT(messages->isVisible(), kScenePatience);
+  for (const char* words : {"“Grid of views: RxC”", "Set this in “Conventions…”."}) {
+    QVERIFY2(messages->text().contains(words), qPrintable(messages->text()));
+  }
+  QVERIFY2(!messages->text().contains("--"), qPrintable(messages->text()));
+}
+
+void OpeningTest::mapBesideOnePicture_isOfTheLightFieldInFront() {
+  WindowFixture f;
+  f.openSmall("slant");
+  f.runAndWait();
+  QDir().mkpath(f.path("new"));
+  exportShown(f, f.path("new/mine.pfm"));
+  QVERIFY(f.canvas()->picture().save(f.path("new/picture.png")));
+
+  choose(f, f.path("new/mine.pfm"));
+
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().session.estimates().size(), 2U, kScenePatience);
+  QVERIFY(!f.window.findChild<QMessageBox*>("result_owner"));
 }
 
 // Its folder has a light field, too: the one in front, whose views lie one folder deeper.

@@ -110,6 +110,8 @@ class SessionRecoveryTest : public QObject {
   void offer_isKeptByItsCross_andTheDemoWaitsForIt();
   void discardedSession_isGone();
   void sceneThatWasOnlyLookedAt_comesBackClean();
+  void b_comesBack_data();
+  void b_comesBack();
   void sessionWithoutLightFields_isNotOffered();
   void leftWindow_leavesNothingBehind();
   void runningSession_isNotOffered();
@@ -271,6 +273,40 @@ void SessionRecoveryTest::sceneThatWasOnlyLookedAt_comesBackClean() {
   QVERIFY(f.recover());
 
   QVERIFY(!f.window.bench().document.hasUnsavedChanges());
+}
+
+void SessionRecoveryTest::b_comesBack_data() {
+  QTest::addColumn<bool>("is_chosen");
+  QTest::newRow("chosen") << true;
+  QTest::newRow("shown before") << false;
+}
+
+void SessionRecoveryTest::b_comesBack() {
+  QFETCH(bool, is_chosen);
+  const QTemporaryDir state;
+  const WindowFixture files;
+  std::string b;
+  {
+    Recovering f(state.path());
+    f.open(files.writeScene("edge", WindowFixture::smallOptions()), 1);
+    for (int i = 0; i < 3; ++i) f.estimate();
+    const auto& results = f.session().estimates();
+    QTRY_VERIFY(!results[2].kept.empty());
+    b = results[1].name;
+    if (!is_chosen) f.session().show_estimate(results[0].id);
+    is_chosen ? f.session().compare_with(results[1].id) : f.session().show_estimate(results[1].id);
+    f.session().show_estimate(results[2].id);
+    QCOMPARE(f.session().compared()->name, b);
+    QCoreApplication::processEvents();
+    QTRY_VERIFY(f.autosave().isIdle());
+  }  // as if killed
+
+  Recovering f(state.path());
+  QVERIFY(f.recover());
+
+  QVERIFY(f.session().compared());
+  QCOMPARE(f.session().compared()->name, b);
+  QCOMPARE(f.session().shown()->name, f.session().estimates()[2].name);
 }
 
 void SessionRecoveryTest::sessionWithoutLightFields_isNotOffered() {

@@ -368,6 +368,10 @@ void CommandsTest::palette_findsByDescriptionSynonymMethodAndLightField_data() {
                            << "File › Export: Picture…";
   QTest::newRow("synonym of a group") << "heat map background"
                                       << "View › Map: True background";
+  QTest::newRow("synonym of a tab") << "histogram"
+                                    << "View › Tabs: Compare tab";
+  QTest::newRow("synonym of the 3D tab") << "point cloud"
+                                         << "View › Tabs: 3D tab";
   QTest::newRow("method") << "Wanner Goldluecke 2012"
                           << "Method: EPI_L";
   QTest::newRow("open") << "open light field edge"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/shell/appearance.h"
+#include "app/gui/shell/jobs.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
 #include "widgets/controls/labels.h"
@@ -15,6 +16,7 @@
 #include <QMenu>
 #include <QMenuBar>
 #include <QSet>
+#include <QSignalSpy>
 #include <QTabBar>
 #include <QTabWidget>
 
@@ -109,6 +111,7 @@ class LanguageTest : public QObject {
   void languageOfTheDesktop_isTheFirstThatIsThere();
   void appliedLanguage_translatesTheWindowAndQt();
   void unknownLanguage_changesNothing();
+  void composedSteps_areTranslated();
   void english_hasPlurals();
   void keys_areReadAndWrittenInEveryLanguage();
   void numbersOfTheCLibrary_keepThePoint();
@@ -160,6 +163,24 @@ void LanguageTest::unknownLanguage_changesNothing() {
   QVERIFY(!apply_language("tlh"));
 
   QCOMPARE(menu_file(), QString("Datei"));
+}
+
+void LanguageTest::composedSteps_areTranslated() {
+  QVERIFY(apply_language("de"));
+  WindowFixture f;
+  Jobs& jobs = f.window.bench().jobs;
+  const QSignalSpy progressed(&jobs, &Jobs::progressed);
+
+  jobs.start<bool>(
+      Lane::Load, "",
+      [](const Progress& progress) {
+        progress.step("rendering the scene edge");
+        return true;
+      },
+      [](bool) {});
+
+  QTRY_VERIFY(!progressed.empty());
+  QCOMPARE(progressed.front()[2].toString(), QString("Szene edge wird gerendert"));
 }
 
 void LanguageTest::english_hasPlurals() {
