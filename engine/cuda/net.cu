@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kThreads = 128;
 // Rows that one of the volume sees, and the distance of rows that all its levels have.
-constexpr int kVolumeReach = 88, kVolumeStep = 8;
+constexpr int kVolumeReach = 96, kVolumeStep = 8;
 
 // Maps `[y][x]` of the size of a view.
 struct MapSize {

@@ -82,7 +82,8 @@ int add_net_volume(NetStream& stream, const NetWeights& weights, int evidence, i
   const int x2 = add_residual(stream, weights, e2, v + "r2");
   const int e3 = add_chain(stream, weights, x2, {v + "d3", v + "e3.0", v + "e3.1"});
   const int x3 = add_residual(stream, weights, e3, v + "r3");
-  const int y2 = add_ascent(stream, weights, x3, x2, {v + "u2", v + "f2"});
+  const int f2 = add_ascent(stream, weights, x3, x2, {v + "u2", v + "f2"});
+  const int y2 = add_residual(stream, weights, f2, v + "s2");
   const int y1 = add_ascent(stream, weights, y2, x1, {v + "u1", v + "f1"});
   const int y0 = add_ascent(stream, weights, y1, x0, {v + "u0", v + "f0"});
   return stream.add_convolution(weights.layer(v + "head"), y0);
@@ -97,16 +98,19 @@ int add_net_selection(NetStream& stream, const NetWeights& weights, int input) {
   const int d2 = add_chain(stream, weights, x1, {s + "d2.0", s + "d2.1", s + "d2.2", s + "d2.3"});
   const int d3 = add_chain(stream, weights, d2, {s + "d3.0", s + "d3.1", s + "d3.2", s + "u2"});
   const int x2 = stream.add_enlarged(d3, d2);
-  const int y1 = add_ascent(stream, weights, x2, x1, {s + "u1", s + "f1"});
+  const int f1 = add_ascent(stream, weights, x2, x1, {s + "u1", s + "f1"});
+  const int y1 = add_residual(stream, weights, f1, s + "s1");
   const int y0 = add_ascent(stream, weights, y1, x0, {s + "u0", s + "f0"});
   return stream.add_convolution(weights.layer(s + "head"), y0);
 }
 
 int add_net_refinement(NetStream& stream, const NetWeights& weights, int input, int number) {
   const std::string r = net_refinement(number);
-  const int x0 = add_chain(stream, weights, input, {r + "i.0", r + "i.1"});
-  const int y =
-      add_chain(stream, weights, x0, {r + "d1.0", r + "d1.1", r + "d1.2", r + "d1.3", r + "u0"});
+  const int i = add_chain(stream, weights, input, {r + "i.0", r + "i.1"});
+  const int x0 = add_residual(stream, weights, i, r + "r0");
+  const int d1 = add_chain(stream, weights, x0, {r + "d1.0", r + "d1.1", r + "d1.2", r + "d1.3"});
+  const int x1 = add_residual(stream, weights, d1, r + "r1");
+  const int y = stream.add_convolution(weights.layer(r + "u0"), x1);
   return add_chain(stream, weights, stream.add_enlarged(y, x0),
                    {r + "f0.0", r + "f0.1", r + "head"});
 }

@@ -22,7 +22,7 @@ import kernels
 import network
 import views
 
-VERSION = 6
+VERSION = 7
 LARGE = 10000    # weights of a layer that are kept in 8 bits, at least
 CONV, NORM = (nn.Conv2d, nn.Conv3d), (nn.BatchNorm2d, nn.BatchNorm3d)
 

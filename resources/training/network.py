@@ -84,6 +84,7 @@ class Volume(nn.Module):
         s.d3, s.e3 = conv3(c, e, 2), nn.Sequential(conv3(e, e), conv3(e, e))
         s.r3 = residual(conv3(e, e), nn.Conv3d(e, e, 3, padding=1))
         s.u2, s.f2 = conv3(e, c, k=1), conv3(c, c)
+        s.s2 = residual(conv3(c, c), nn.Conv3d(c, c, 3, padding=1))
         s.u1, s.f1 = conv3(c, b, k=1), conv3(b, b)
         s.u0, s.f0 = conv3(b, a, k=1), conv3(a, a)
         s.head = nn.Conv3d(a, 1, 3, padding=1)
@@ -97,6 +98,7 @@ class Volume(nn.Module):
         x3 = s.e3(s.d3(x2))
         x3 = x3 + s.r3(x3)
         y2 = s.f2(up(s.u2(x3), x2) + x2)
+        y2 = y2 + s.s2(y2)
         y1 = s.f1(up(s.u1(y2), x1) + x1)
         y0 = s.f0(up(s.u0(y1), x0) + x0)
         return s.head(y0)[:, 0].float()
@@ -161,6 +163,7 @@ class Selection(nn.Module):
         s.d3 = nn.Sequential(conv2(w2, w2, 2), conv2(w2, w2), conv2(w2, w2, dilation=2))
         s.u2 = nn.Conv2d(w2, w2, 1)
         s.u1, s.f1 = conv2(w2, w1, k=1), conv2(w1, w1)
+        s.s1 = residual(conv2(w1, w1), nn.Conv2d(w1, w1, 3, padding=1))
         s.u0, s.f0 = conv2(w1, w, k=1), conv2(w, w)
         s.head = nn.Conv2d(w, n, 3, padding=1)
 
@@ -180,6 +183,7 @@ class Selection(nn.Module):
         x2 = s.d2(x1)
         x2 = x2 + up(s.u2(s.d3(x2)), x2)
         y1 = s.f1(up(s.u1(x2), x1) + x1)
+        y1 = y1 + s.s1(y1)
         y0 = s.f0(up(s.u0(y1), x0) + x0)
         return s.head(y0).float()
 
@@ -205,7 +209,9 @@ class Refinement(nn.Module):
         n = len(OFFSETS)
         s.reduce = Reduce(g)
         s.i = nn.Sequential(conv2(filled(n * g + 4 + 5), w), conv2(w, w))
+        s.r0 = residual(conv2(w, w), nn.Conv2d(w, w, 3, padding=1))
         s.d1 = nn.Sequential(conv2(w, w1, 2), conv2(w1, w1), conv2(w1, w1, dilation=2), conv2(w1, w1, dilation=4))
+        s.r1 = residual(conv2(w1, w1), nn.Conv2d(w1, w1, 3, padding=1))
         s.u0, s.f0 = conv2(w1, w, k=1), nn.Sequential(conv2(w, w), conv2(w, w))
         s.head = nn.Conv2d(w, 2, 3, padding=1)
 
@@ -216,7 +222,10 @@ class Refinement(nn.Module):
         m = median(d, 1)
         extra = torch.stack((squash(highest(d, 5) - d), squash(lowest(d, 5) - d), squash(m - d), certainty), 1)
         x0 = s.i(fill(torch.cat((s.reduce(e), extra, image), 1)))
-        y0 = s.f0(up(s.u0(s.d1(x0)), x0) + x0)
+        x0 = x0 + s.r0(x0)
+        x1 = s.d1(x0)
+        x1 = x1 + s.r1(x1)
+        y0 = s.f0(up(s.u0(x1), x0) + x0)
         out = s.head(y0).float()
         return d + step * 1.5 * torch.tanh(out[:, 0]), out[:, 1]
 

@@ -106,7 +106,7 @@ def volume(w, e, image):
     x1 = chain(w, x0, p + 'd1', p + 'e1')
     x2 = residual(w, p + 'r2', chain(w, x1, p + 'd2', p + 'e2.0', p + 'e2.1'))
     x3 = residual(w, p + 'r3', chain(w, x2, p + 'd3', p + 'e3.0', p + 'e3.1'))
-    y2 = conv(w, p + 'f2', up(conv(w, p + 'u2', x3), x2) + x2)
+    y2 = residual(w, p + 's2', conv(w, p + 'f2', up(conv(w, p + 'u2', x3), x2) + x2))
     y1 = conv(w, p + 'f1', up(conv(w, p + 'u1', y2), x1) + x1)
     y0 = conv(w, p + 'f0', up(conv(w, p + 'u0', y1), x0) + x0)
     return conv(w, p + 'head', y0)[0]
@@ -158,7 +158,7 @@ def selection(w, e, image, h, logp, known):
     x1 = residual(w, p + 'r1', chain(w, x0, p + 'd1.0', p + 'd1.1'))
     x2 = chain(w, x1, p + 'd2.0', p + 'd2.1', p + 'd2.2', p + 'd2.3')
     x2 = x2 + up(chain(w, x2, p + 'd3.0', p + 'd3.1', p + 'd3.2', p + 'u2'), x2)
-    y1 = conv(w, p + 'f1', up(conv(w, p + 'u1', x2), x1) + x1)
+    y1 = residual(w, p + 's1', conv(w, p + 'f1', up(conv(w, p + 'u1', x2), x1) + x1))
     y0 = conv(w, p + 'f0', up(conv(w, p + 'u0', y1), x0) + x0)
     return conv(w, p + 'head', y0)
 
@@ -186,8 +186,9 @@ def refinement(w, number, fives, offsets, table, image, d, certainty):
     e[:, 1:] = (e[:, 1:] - e[:, :1]) * 4
     small = np.concatenate([chain(w, e[:, i], p + 'reduce.a', p + 'reduce.b') for i in range(5)])
     extra = np.stack((squash(window(d, 5, np.max) - d), squash(window(d, 5, np.min) - d), squash(window(d, 5, np.median) - d), certainty))
-    x0 = chain(w, np.concatenate((small, extra, image)).astype(np.float32), p + 'i.0', p + 'i.1')
-    y = conv(w, p + 'u0', chain(w, x0, p + 'd1.0', p + 'd1.1', p + 'd1.2', p + 'd1.3'))
+    x0 = residual(w, p + 'r0', chain(w, np.concatenate((small, extra, image)).astype(np.float32), p + 'i.0', p + 'i.1'))
+    x1 = residual(w, p + 'r1', chain(w, x0, p + 'd1.0', p + 'd1.1', p + 'd1.2', p + 'd1.3'))
+    y = conv(w, p + 'u0', x1)
     out = conv(w, p + 'head', chain(w, up(y, x0) + x0, p + 'f0.0', p + 'f0.1'))
     return d + step * 1.5 * np.tanh(out[0]), 1 / (1 + np.exp(-out[1]))
 
