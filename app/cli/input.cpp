@@ -206,7 +206,7 @@ std::vector<io::CollectionEntry> entries_at(const std::string& input, const Read
 int frames_of(const std::string& input, const io::OpenOptions& options) {
   if (reader_of(input, options) != io::kSequenceReader) return 0;
   const io::FoundReader found = io::find_reader(input, options);
-  return found.reader->probe(found.path, options).frames;
+  return found.reader ? found.reader->probe(found.path, options).frames : 0;
 }
 
 /// An INPUT that stands for itself.

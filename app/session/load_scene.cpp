@@ -151,8 +151,9 @@ std::string builtin_scene_id(const std::string& input) {
 
 std::string reader_of(const std::string& input, const io::OpenOptions& options) {
   if (!builtin_scene_id(input).empty()) return scenes::kBuiltinReader;
-  const io::Reader* reader = io::find_reader(input, options).reader;
-  return reader ? reader->id : std::string();
+  if (const io::Reader* reader = io::find_reader(input, options).reader) return reader->id;
+  const auto below = collection_at(input, options, {}, Progress());
+  return below.size() == 1 ? below.front().reader : std::string();
 }
 
 Scene load_scene(const std::string& input, const LoadOptions& options, const Progress& progress) {

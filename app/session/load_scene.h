@@ -29,8 +29,8 @@ struct LoadOptions {
 /// `demo:<scene>`, which `scenes::read_request` reads; else empty.
 [[nodiscard]] std::string builtin_scene_id(const std::string& input);
 
-/// Id of the reader of an input (engine/io/models/reader.h), "builtin" for built-in scenes; empty
-/// if nobody reads it. Throws IoError if it is not there or damaged.
+/// Id of the reader of an input (engine/io/models/reader.h), or of the only light field below it,
+/// which load_scene opens; "builtin" for built-in scenes; empty if nobody reads it. Throws IoError if it is not there or damaged.
 [[nodiscard]] std::string reader_of(const std::string& input, const io::OpenOptions& options);
 
 /// Opens anything that a user can name: `demo`, `demo:<scene>`, `demo:random?seed=7`, or a path

@@ -37,6 +37,12 @@ bool has_own_reader(const fs::path& folder) {
          fs::exists(folder / "light_field.json", error);
 }
 
+/// Whether a folder beside views is named as one of maps or of other pictures of the scene.
+bool is_beside_views(const fs::path& folder) {
+  const std::string name = folder.filename().string();
+  return is_map_folder(name) || names_companions(lower_case(name));
+}
+
 bool holds_grid(const fs::path& folder) {
   constexpr std::size_t kFewestViews = 4;
   try {
@@ -76,8 +82,7 @@ fs::path only_grid_inside(const fs::path& folder) {
       if (may_hold_light_field(entry.path())) return {};
       continue;
     }
-    const bool is_beside = is_map_folder(name) || names_companions(lower_case(name));
-    if (is_beside || count_images(entry.path()) == 0) continue;
+    if (is_beside_views(entry.path()) || count_images(entry.path()) == 0) continue;
     if (!found.empty()) return {};
     found = entry.path();
   }
@@ -112,8 +117,7 @@ std::vector<std::string> other_picture_folders(const fs::path& source, const fs:
   if (source == views) return names;
   for (const auto& entry : fs::directory_iterator(source)) {
     std::string name = entry.path().filename().string();
-    const bool is_map = is_map_folder(name) || names_companions(lower_case(name));
-    if (name.starts_with('.') || is_map || entry.path() == views) continue;
+    if (name.starts_with('.') || is_beside_views(entry.path()) || entry.path() == views) continue;
     if (count_images(entry.path()) > 1) names.push_back(std::move(name));
   }
   std::ranges::sort(names);
@@ -228,9 +232,10 @@ bool speaks_of_views(const std::string& name) {
 /// FolderPictures by what the names of their folders would be if these were files.
 using FolderPictures = std::map<fs::path, fs::path>;
 
-/// Nothing if there are too many to be views.
+/// Without those of maps. Nothing if there are too many to be views.
 std::vector<fs::path> folders_in(const fs::path& folder) {
   std::vector<fs::path> folders = list_folders(folder);
+  std::erase_if(folders, is_beside_views);
   return folders.size() > kMostFolders ? std::vector<fs::path>() : folders;
 }
 
@@ -315,6 +320,13 @@ namespace {
 
 constexpr std::size_t kFewestOfSquare = 9;
 
+/// Without maps.
+std::vector<fs::path> views_in(const fs::path& folder) {
+  std::vector<fs::path> images = list_images(folder);
+  std::erase_if(images, [](const fs::path& image) { return map_kind(image.stem().string()); });
+  return images;
+}
+
 /// Images, or folders, in the order of the number in which their names differ, which is the
 /// `varying`-th.
 struct CountedFolder {
@@ -396,14 +408,14 @@ std::optional<RowFolders> find_row_folders(const fs::path& folder, const OpenOpt
   if (!fs::is_directory(folder, error) || !options.pattern.empty() || count_images(folder) > 0) {
     return std::nullopt;
   }
-  const auto folders = by_number(list_folders(folder));
+  const auto folders = by_number(folders_in(folder));
   if (!folders) return std::nullopt;
   const std::string word = letters_of(folders->skeleton);
   RowFolders found{
       .rows = {}, .numbers = {}, .are_columns = is_one_of(word, kColumns), .pattern = {}};
   if (!word.empty() && !found.are_columns && !is_one_of(word, kRows)) return std::nullopt;
   for (const fs::path& row : folders->paths) {
-    auto images = by_number(list_images(row));
+    auto images = by_number(views_in(row));
     if (!images) return std::nullopt;
     if (found.pattern.empty()) {
       found.pattern = pattern_of(*folders, found.are_columns ? "{col}" : "{row}") + "/" +

@@ -320,26 +320,77 @@ std::optional<MapKind> kind_of(const fs::path& file, std::optional<MapKind> of_f
   return may_be_text && is_text_map(file) ? kind : std::nullopt;
 }
 
-/// Maps that lie with their view in a folder of its own, and are called the same in all of these.
-std::vector<MapSet> maps_with_views(const ViewFiles& views, const fs::path& folder) {
-  std::map<std::pair<MapKind, std::string>, MapSet> sets;
-  std::set<fs::path> seen;
-  for (std::size_t i = 0; i < views.files.size(); ++i) {
-    const fs::path inside = views.files[i].parent_path();
-    if (inside == folder || !seen.insert(inside).second) return {};
-    for (const fs::path& file : list_files(inside)) {
-      const auto kind = file == views.files[i] ? std::nullopt : kind_of(file, std::nullopt);
-      if (!kind) continue;
-      MapSet& set = sets[{*kind, file.filename().string()}];
-      set.kind = *kind;
-      set.pattern = "*/" + file.filename().string();
-      set.entries.push_back({static_cast<int>(i), file});
+/// What the name of a map adds to that of its view: "*_depth.npy" beside "03.png", the whole name
+/// where the view has a folder of its own. Empty if the name is of another view.
+std::string role_of(const fs::path& file, const fs::path& view, bool is_alone) {
+  std::string name = file.filename().string();
+  if (is_alone) return name;
+  const std::string stem = view.stem().string();
+  const std::size_t at = name.find(stem);
+  const auto is_inside = [&](std::size_t i) { return i < name.size() && is_digit(name[i]); };
+  const bool is_other =
+      at == std::string::npos || is_inside(at + stem.size()) || (at > 0 && is_inside(at - 1));
+  return is_other ? std::string() : name.replace(at, stem.size(), "*");
+}
+
+/// Maps of views that lie in folders inside `folder`, as rows or one folder a view: with their
+/// views, or in folders of the same names inside a folder of maps.
+class MapsOfFolders {
+ public:
+  MapsOfFolders(const ViewFiles& views, const fs::path& folder, FoundMapSets& found)
+      : folder_(folder), found_(found) {
+    taken_.insert(views.files.begin(), views.files.end());
+    taken_.insert(views.left_out.begin(), views.left_out.end());
+    for (std::size_t i = 0; i < views.files.size(); ++i) add(views.files[i], static_cast<int>(i));
+    for (const fs::path& view : views.left_out) add(view, kLeftOut);
+  }
+
+  void find() {
+    if (views_.contains(folder_)) return;
+    for (const MapPlace& place : map_places(folder_)) {
+      for (const auto& [inside, views] : views_) {
+        look_into(place, inside.lexically_relative(folder_), views);
+      }
+    }
+    for (auto& [key, set] : sets_) {
+      drop_left_out(set);
+      found_.sets.push_back(std::move(set));
     }
   }
-  std::vector<MapSet> all;
-  for (auto& [key, set] : sets) all.push_back(std::move(set));
-  return all;
-}
+
+ private:
+  struct View {
+    fs::path file;
+    int number = 0;
+  };
+
+  void add(const fs::path& view, int number) {
+    views_[view.parent_path()].push_back({view, number});
+  }
+
+  void look_into(const MapPlace& place, const fs::path& inside, const std::vector<View>& views) {
+    const std::vector<fs::path> files = list_files(place.folder / inside);
+    if (!files.empty()) found_.folders.push_back(place.folder / inside);
+    for (const fs::path& file : files) {
+      const auto kind = taken_.contains(file) ? std::nullopt : kind_of(file, place.kind);
+      if (!kind) continue;
+      for (const View& view : views) {
+        const std::string role = role_of(file, view.file, views.size() == 1);
+        if (role.empty()) continue;
+        MapSet& set = sets_[{*kind, place.prefix + "*/" + role}];
+        set.kind = *kind;
+        set.pattern = place.prefix + "*/" + role;
+        set.entries.push_back({view.number, file});
+      }
+    }
+  }
+
+  const fs::path& folder_;
+  FoundMapSets& found_;
+  std::set<fs::path> taken_;
+  std::map<fs::path, std::vector<View>> views_;  ///< Of each folder.
+  std::map<std::pair<MapKind, std::string>, MapSet> sets_;
+};
 
 }  // namespace
 
@@ -359,7 +410,7 @@ FoundMapSets find_maps(const ViewFiles& views, const fs::path& folder, const IsO
   taken.insert(views.left_out.begin(), views.left_out.end());
   const ViewKeys keys = keys_of_views(views);
   FoundMapSets found;
-  found.sets = maps_with_views(views, folder);
+  MapsOfFolders(views, folder, found).find();
   for (const MapPlace& place : map_places(folder)) {
     std::map<std::pair<MapKind, std::string>, std::vector<fs::path>> groups;
     for (const fs::path& file : list_files(place.folder)) {

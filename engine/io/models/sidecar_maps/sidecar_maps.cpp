@@ -372,9 +372,9 @@ SidecarMaps read_sidecar_maps(const SidecarViews& views, const SidecarNotes& not
                               const Progress& progress) {
   FoundMapSets maps = find_maps(views.files, views.folder, views.is_own);
   SidecarMaps found{{}, {}, views.camera};
+  for (const fs::path& folder : maps.folders) notes.account.add_folder(folder);
   if (maps.sets.empty()) return found;
   progress.step("reading ground truth");
-  for (const fs::path& folder : maps.folders) notes.account.add_folder(folder);
   set_aside(maps.sets, notes);
   settle_fractional_labels(maps.sets, views, notes);
   SidecarDisparity disparity =

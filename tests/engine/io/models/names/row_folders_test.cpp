@@ -79,6 +79,18 @@ class RowFoldersTest : public QObject {
     QVERIFY2(has_same_samples(read, scene), describe(read.convention).c_str());
   }
 
+  void mapsBesideRows_areNoViews() {
+    const Scene scene = plane_scene({.grid = {5, 7}});
+    write(scene, "row_{0}/view_{1}.png");
+    write(scene, "row_{0}/view_{1}_valid.png");
+    fs::create_directory(path() / "disparity");
+
+    const Scene read = io::open_scene(path(), {}, Progress(1));
+
+    QVERIFY2(has_same_samples(read, scene), describe(read.convention).c_str());
+    QCOMPARE(read.convention.files.front().count, 35);
+  }
+
   void asManyFoldersAsImages_areAGrid() {
     const Scene scene = plane_scene({.grid = {9, 9}});
     write(scene, "{0}/{1}.png");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/models/names/view_folders.h"
 #include "engine/core/error.h"
 #include "engine/io/base/image_file.h"
-#include "engine/io/models/names/view_folders.h"
 #include "tests/engine/io/models/sidecar_maps/layered_folder.h"
 #include "tests/test_main.h"
 
@@ -43,6 +43,17 @@ class ViewFoldersTest : public QObject {
     QVERIFY(has_views(scene));
     const ViewStack<float>& maps = scene.truth->field.disparity;
     QVERIFY(std::equal(maps.data(), maps.data() + maps.size(), folder_->scene.disparity.data()));
+    QCOMPARE(count_used(scene, "disparity maps"), 9);
+  }
+
+  void foldersOfMapsBesideThem_areTruth() {
+    folder_->write_views(LayeredFolder::named("{:02}_{:02}/000.png"));
+    folder_->write_npy(LayeredFolder::named("disparity/{:02}_{:02}/000.npy"),
+                       folder_->scene.disparity);
+
+    const Scene scene = folder_->open();
+
+    QVERIFY(has_views(scene));
     QCOMPARE(count_used(scene, "disparity maps"), 9);
   }
 

@@ -2,8 +2,8 @@
 #include "engine/io/models/sidecar_maps/find_maps.h"
 #include "tests/test_main.h"
 
-#include <QTemporaryDir>
 #include <fmt/format.h>
+#include <QTemporaryDir>
 
 #include <fstream>
 
@@ -71,6 +71,16 @@ class FindMapsTest : public QObject {
                                   << "disp_{}.pfm" << 0 << "disp_#.pfm";
     QTest::newRow("counted views") << "view{}.png"
                                    << "disp_{}_{}.pfm" << 1 << "disp_#_#.pfm";
+    QTest::newRow("rows") << "{}/{}.png"
+                          << "{}/{}_disparity.npy" << 1 << "*/*_disparity.npy";
+    QTest::newRow("rows, name behind") << "row_{}/view_{}.png"
+                                       << "row_{}/gt_depth_view_{}.npy" << 1 << "*/gt_depth_*.npy";
+    QTest::newRow("rows of maps") << "{}/{}.png"
+                                  << "disparity/{}/{}.npy" << 1 << "disparity/*/*.npy";
+    QTest::newRow("a folder a view") << "{}_{}/000.png"
+                                     << "{}_{}/depth.npy" << 1 << "*/depth.npy";
+    QTest::newRow("folders of maps") << "{}_{}/000.png"
+                                     << "disparity/{}_{}/000.npy" << 1 << "disparity/*/000.npy";
   }
   void numbersOfNames_tellTheView() {
     QFETCH(QString, view);
