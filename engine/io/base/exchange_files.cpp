@@ -171,17 +171,19 @@ void write_pfm(const std::filesystem::path& path, ImageView<const float> image) 
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r";
+constexpr std::size_t kFewestNumbers = 8;              ///< In a row of a map.
+constexpr std::size_t kLongestLine = 1 << 20;          ///< In bytes.
+constexpr std::uintmax_t kLargestTextMap = 400000000;  ///< In bytes.
 
 /// What parts the cells of a line: the rarer character, since spaces may stand beside it.
 std::string_view separators_of(std::string_view line) {
-  for (const std::string_view one : {";", ",", "\t"}) {
+  for (const std::string_view one : {";", "\t", ","}) {
     if (line.find(one) != std::string_view::npos) return one;
   }
   return kBlanks;
 }
 
-std::vector<std::string_view> cells_of(std::string_view line) {
-  const std::string_view separators = separators_of(line);
+std::vector<std::string_view> cells_of(std::string_view line, std::string_view separators) {
   std::vector<std::string_view> cells;
   for (;;) {
     const std::size_t end = line.find_first_of(separators);
@@ -193,49 +195,90 @@ std::vector<std::string_view> cells_of(std::string_view line) {
   }
 }
 
-/// Empty for a word that is no number.
+/// Empty for a word that is no number. Decimal commas are known by other separators.
 std::optional<float> value_of(std::string_view cell) {
-  const std::string word = lower_case(std::string(cell));
+  std::string word = lower_case(std::string(cell));
   const std::string size = word.substr(word.find_first_not_of("+-") == 1 ? 1 : 0);
   for (const char* missing : {"", "nan", "na", "null", "inf", "infinity"}) {
     if (size == missing) return std::numeric_limits<float>::quiet_NaN();
   }
+  std::ranges::replace(word, ',', '.');
   const auto number = parse_number(word);
   return number ? std::optional(static_cast<float>(*number)) : std::nullopt;
 }
 
+bool is_left_out(std::string_view line) {
+  return line.empty() || line.front() == '#' || line.front() == '%';
+}
+
+/// Appends the numbers of line `number` and returns how many. Throws IoError.
+std::size_t append_row(const std::filesystem::path& path, std::string_view line, std::size_t number,
+                       std::vector<float>& values) {
+  const std::vector<std::string_view> cells = cells_of(line, separators_of(line));
+  for (const std::string_view cell : cells) {
+    const auto value = value_of(cell);
+    if (!value) {
+      throw IoError(path, fmt::format("line {} holds '{}', which is no number; a map is numbers "
+                                      "alone, without names of rows or columns",
+                                      number, cell.substr(0, 40)));
+    }
+    values.push_back(*value);
+  }
+  return cells.size();
+}
+
 }  // namespace
 
-Image<float> read_csv_map(const std::filesystem::path& path) {
+bool has_text_suffix(const std::filesystem::path& path) {
+  const std::string suffix = suffix_of(path);
+  return suffix == ".txt" || suffix == ".csv" || suffix == ".dat";
+}
+
+bool is_text_map(const std::filesystem::path& path) {
+  if (!has_text_suffix(path)) return false;
+  std::ifstream in(path);
+  std::string begin(kLongestLine, '\0');
+  in.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  begin.resize(static_cast<std::size_t>(in.gcount()));
+  for (std::size_t at = 0; at < begin.size();) {
+    const std::size_t end = std::min(begin.find('\n', at), begin.size());
+    const std::string_view line = trimmed(std::string_view(begin).substr(at, end - at));
+    at = end + 1;
+    if (is_left_out(line)) continue;
+    const auto cells = cells_of(line, separators_of(line));
+    return cells.size() >= kFewestNumbers && std::ranges::all_of(cells, [](std::string_view cell) {
+             return value_of(cell).has_value();
+           });
+  }
+  return false;
+}
+
+Image<float> read_text_map(const std::filesystem::path& path) {
   require_readable_file(path);
+  if (std::filesystem::file_size(path) > kLargestTextMap) {
+    throw IoError(path, "this text is larger than 400 MB; save the map as .npy");
+  }
   std::ifstream in(path);
   std::vector<float> values;
   std::size_t width = 0, height = 0, number = 0;
   for (std::string line; std::getline(in, line);) {
     ++number;
     const std::string_view text = trimmed(line);
-    if (text.empty() || text.starts_with('#')) continue;
-    const std::vector<std::string_view> cells = cells_of(text);
-    if (height++ == 0) width = cells.size();
-    if (cells.size() != width) {
+    if (is_left_out(text)) continue;
+    if (text.size() > kLongestLine) {
+      throw IoError(path, fmt::format("line {} is longer than a row of numbers can be; choose "
+                                      "another file",
+                                      number));
+    }
+    const std::size_t count = append_row(path, text, number, values);
+    if (height++ == 0) width = count;
+    if (count != width) {
       throw IoError(path, fmt::format("line {} has {} values, but the first row has {}; a map has "
                                       "as many in every row",
-                                      number, cells.size(), width));
-    }
-    for (const std::string_view cell : cells) {
-      const auto value = value_of(cell);
-      if (!value) {
-        throw IoError(path, fmt::format("line {} holds '{}', which is no number; a map is numbers "
-                                        "alone, without names of rows or columns",
-                                        number, cell.substr(0, 40)));
-      }
-      values.push_back(*value);
+                                      number, count, width));
     }
   }
-  constexpr auto most = static_cast<std::size_t>(std::numeric_limits<int>::max());
-  if (values.empty() || width > most || height > most) {
-    throw IoError(path, "holds no rows of numbers; export the map again");
-  }
+  if (values.empty()) throw IoError(path, "holds no rows of numbers; export the map again");
   Image<float> map(static_cast<int>(height), static_cast<int>(width));
   std::ranges::copy(values, map.data());
   return map;

@@ -17,10 +17,17 @@ namespace episcope::io {
 /// Little endian, scale −1. Atomic. Throws IoError, InvalidInput for other than 1 or 3 channels.
 void write_pfm(const std::filesystem::path& path, ImageView<const float> image);
 
-/// Reads a map as text, a line for each row of pixels, top to bottom: numbers with a decimal point,
-/// between commas, semicolons, tabs or spaces. Empty cells and words such as nan are NaN; empty
-/// lines and lines that begin with # are skipped. Throws IoError that names the line.
-[[nodiscard]] Image<float> read_csv_map(const std::filesystem::path& path);
+/// Whether the suffix is .txt, .csv or .dat.
+[[nodiscard]] bool has_text_suffix(const std::filesystem::path& path);
+/// Whether such a file begins with a row of at least eight numbers, as NumPy, MATLAB and
+/// spreadsheets write matrices. Reads the beginning of the file only.
+[[nodiscard]] bool is_text_map(const std::filesystem::path& path);
+
+/// Reads a map as text, a line for each row of pixels, top to bottom: numbers between commas,
+/// semicolons, tabs or spaces, with a decimal point, or a comma where no commas part them. Empty
+/// cells and words such as nan are NaN; empty lines and lines that begin with # or % are skipped.
+/// Throws IoError that names the line, and for more than 400 MB.
+[[nodiscard]] Image<float> read_text_map(const std::filesystem::path& path);
 
 /// Writes such a map with commas; numbers read back exactly, NaN and infinite values as nan.
 /// Atomic. Throws IoError.

@@ -46,6 +46,21 @@ DisparityField center_field(const fs::path& path, const Image<float>& map, GridS
   return field;
 }
 
+/// The channel of depth, else the first: maps are written as grey, or with the same value in all.
+Image<float> read_exr_map(const fs::path& path) {
+  const AnyImage decoded = decode_image(path, PicturePart::Depth);
+  const auto* image = std::get_if<Image<float>>(&decoded);
+  if (image == nullptr) {
+    throw IoError(path, "this picture has " + describe_image(decoded) +
+                            ", but a map needs 32-bit float samples; export it in that format");
+  }
+  Image<float> map(image->height(), image->width());
+  for (std::size_t i = 0; i < map.size(); ++i) {
+    map.data()[i] = image->data()[i * static_cast<std::size_t>(image->channels())];
+  }
+  return map;
+}
+
 Image<float> read_float_tiff(const fs::path& path) {
   AnyImage decoded = decode_image(path);
   if (auto* map = std::get_if<Image<float>>(&decoded)) return std::move(*map);
@@ -311,7 +326,8 @@ DisparityField read_disparity_map(const fs::path& path, GridShape grid) {
   if (suffix == ".tif" || suffix == ".tiff") {
     return center_field(path, read_float_tiff(path), grid);
   }
-  if (suffix == ".csv") return center_field(path, read_csv_map(path), grid);
+  if (suffix == ".exr") return center_field(path, read_exr_map(path), grid);
+  if (has_text_suffix(path)) return center_field(path, read_text_map(path), grid);
   if (const auto archive = open_map_archive(path)) return read_archive_field(*archive, grid);
   if (has_hdf5_signature(path) || has_hdf5_name(path)) {
     return read_hdf5_map(path, grid);

@@ -14,13 +14,14 @@ namespace episcope::io {
 
 /// Forms of disparity maps, for help and errors.
 inline constexpr const char* kMapForms =
-    "HDF5 or .mat (5 to 7.3) with one map, .npy, .npz, PFM, float TIFF, .csv";
+    "HDF5 or .mat (5 to 7.3) with one map, .npy, .npz, PFM, float TIFF or EXR, .csv, .txt, .dat";
 
 /// Whether a dataset can be a disparity map, of one view or of all: floats, or whole numbers that
 /// are named disparity.
 [[nodiscard]] bool can_be_map(const Hdf5Dataset& dataset);
 
-/// Reads a disparity map of another program: PFM, 32-bit float TIFF, `.csv` (`read_csv_map`),
+/// Reads a disparity map of another program: PFM, 32-bit float TIFF or EXR (the channel of
+/// depth, else the first), text (`read_text_map`),
 /// `.npy` of two or four axes, an `.npz` or MATLAB file with one such array, or an HDF5 file with
 /// one such dataset (`can_be_map`; floats go first), in the order of axes that it states
 /// (`stated_map_layout`). Of several arrays, the only one named like disparity is meant. A 2-D map

@@ -5,6 +5,7 @@
 #include "engine/core/finding.h"
 #include "engine/core/parallel.h"
 #include "engine/core/text.h"
+#include "engine/io/base/exchange_files.h"
 #include "engine/io/base/files.h"
 #include "engine/io/models/external_result.h"
 #include "engine/io/models/map_padding.h"

@@ -4,6 +4,7 @@
 #include "engine/core/error.h"
 #include "engine/core/numbers.h"
 #include "engine/core/text.h"
+#include "engine/io/base/exchange_files.h"
 #include "engine/io/base/files.h"
 #include "engine/io/base/hdf5_file.h"
 #include "engine/io/base/image_file.h"
@@ -20,13 +21,10 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <fstream>
 #include <initializer_list>
 #include <memory>
 #include <optional>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
 namespace episcope::io {
@@ -99,84 +97,6 @@ ViewStack<std::int32_t> read_archived_labels(const fs::path& path, GridShape gri
   return read_archived<std::int32_t>(path, grid, {MapKind::Labels});
 }
 
-constexpr std::size_t kFewestNumbers = 8;              ///< In a row of a map.
-constexpr std::size_t kLongestLine = 1 << 20;          ///< In bytes.
-constexpr std::uintmax_t kLargestTextMap = 400000000;  ///< In bytes.
-
-bool is_between(char c) {
-  return c == ' ' || c == '\t' || c == ',' || c == ';' || c == '\r';
-}
-
-/// The numbers of a line; nothing if there is anything else in it.
-std::optional<std::vector<float>> numbers_in(const std::string& line) {
-  std::vector<float> numbers;
-  const char* at = line.data();
-  const char* const line_end = at + line.size();
-  while (true) {
-    while (at != line_end && is_between(*at)) ++at;
-    if (at == line_end) return numbers;
-    float number = 0;
-    const char* begin = *at == '+' ? at + 1 : at;
-    const auto [end, error] = std::from_chars(begin, line_end, number);
-    if (error != std::errc() || (end != line_end && !is_between(*end))) return std::nullopt;
-    numbers.push_back(number);
-    at = end;
-  }
-}
-
-bool is_comment(const std::string& line) {
-  const auto first = line.find_first_not_of(" \t\r");
-  return first == std::string::npos || line[first] == '#' || line[first] == '%';
-}
-
-/// False at the end. Throws IoError for a line that is too long.
-bool next_line(const fs::path& path, std::ifstream& in, std::string& line) {
-  while (std::getline(in, line)) {
-    if (line.size() > kLongestLine) {
-      throw IoError(path,
-                    "a line of this text is longer than a row of numbers can be; choose "
-                    "another file");
-    }
-    if (!is_comment(line)) return true;
-  }
-  return false;
-}
-
-/// A row of pixels in each line, its numbers separated by blanks, commas or semicolons; empty lines
-/// and those that begin with # or % are left out; nan and inf are numbers. Throws IoError for
-/// lines of different lengths, for anything else, and for more than 400 MB.
-Image<float> read_text_map(const fs::path& path) {
-  require_readable_file(path);
-  if (fs::file_size(path) > kLargestTextMap) {
-    throw IoError(path, "this text is larger than 400 MB; save the map as .npy");
-  }
-  std::ifstream in(path);
-  std::vector<float> values;
-  std::string line;
-  int height = 0;
-  std::size_t width = 0;
-  while (next_line(path, in, line)) {
-    const auto numbers = numbers_in(line);
-    if (!numbers) {
-      throw IoError(path, fmt::format("row {} of this matrix holds something else than numbers; "
-                                      "export it again",
-                                      height + 1));
-    }
-    if (height > 0 && numbers->size() != width) {
-      throw IoError(path, fmt::format("row {} of this matrix has {} numbers, but the first has {}; "
-                                      "export it again",
-                                      height + 1, numbers->size(), width));
-    }
-    width = numbers->size();
-    values.insert(values.end(), numbers->begin(), numbers->end());
-    ++height;
-  }
-  if (height == 0) throw IoError(path, "this text holds no numbers; choose another file");
-  Image<float> map(height, static_cast<int>(width));
-  std::copy(values.begin(), values.end(), map.begin());
-  return map;
-}
-
 }  // namespace
 
 bool is_archive_of_maps(const fs::path& path) {
@@ -193,28 +113,6 @@ bool holds_archived_fractions(const fs::path& path, GridShape grid) {
   const FoundMap map = find_archived_map(*file, grid, {MapKind::Labels}, {});
   return is_float(map.entry.type) &&
          has_fractions(read_map_stack<float>(*file->open(map.entry), map.layout, Progress()));
-}
-
-bool has_text_suffix(const fs::path& path) {
-  const std::string suffix = suffix_of(path);
-  return suffix == ".txt" || suffix == ".csv" || suffix == ".dat";
-}
-
-bool is_text_map(const fs::path& path) {
-  if (!has_text_suffix(path)) return false;
-  std::ifstream in(path);
-  std::string begin(kLongestLine, '\0');
-  in.read(begin.data(), static_cast<std::streamsize>(begin.size()));
-  begin.resize(static_cast<std::size_t>(in.gcount()));
-  for (std::size_t at = 0; at < begin.size();) {
-    const std::size_t end = std::min(begin.find('\n', at), begin.size());
-    const std::string line = begin.substr(at, end - at);
-    at = end + 1;
-    if (is_comment(line)) continue;
-    const auto numbers = numbers_in(line);
-    return numbers && numbers->size() >= kFewestNumbers;
-  }
-  return false;
 }
 
 namespace {
@@ -263,21 +161,6 @@ DisparityField read_npy_values(const fs::path& path, GridShape grid) {
   ViewStack<float> maps = read_grid<float>(file, grid);
   if (maps.empty()) maps = single(read_map(file, file.header().is_fortran));
   return marked(std::move(maps));
-}
-
-/// The channel of depth, else the first: maps are written as grey, or with the same value in all.
-DisparityField read_exr_values(const fs::path& path) {
-  const AnyImage decoded = decode_image(path, PicturePart::Depth);
-  const auto* image = std::get_if<Image<float>>(&decoded);
-  if (image == nullptr) {
-    throw IoError(path, "this picture has " + describe_image(decoded) +
-                            ", but a map needs 32-bit float samples; export it in that format");
-  }
-  ViewStack<float> values({1, 1}, image->height(), image->width());
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    values.data()[i] = image->data()[i * static_cast<std::size_t>(image->channels())];
-  }
-  return marked(std::move(values));
 }
 
 StoredLabels read_npy_label_maps(const fs::path& path, GridShape grid) {
@@ -377,8 +260,6 @@ bool can_hold_labels(const fs::path& path) {
 DisparityField read_values(const fs::path& path, GridShape grid) {
   if (suffix_of(path) == ".npy") return read_npy_values(path, grid);
   if (is_archive_of_maps(path)) return marked(read_archived_values(path, grid));
-  if (suffix_of(path) == ".exr") return read_exr_values(path);
-  if (has_text_suffix(path)) return marked(single(read_text_map(path)));
   DisparityField field = read_disparity_map(path, grid);
   if (!(field.disparity.grid() == GridShape{1, 1}) || field.disparity.first() == ViewIndex{}) {
     return field;

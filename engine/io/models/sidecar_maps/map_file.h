@@ -59,11 +59,6 @@ enum class OwnFile { None, Scribbles, Segmentation, Result };
 /// Whether the labels in named arrays are floats with fractions, and so values. Throws IoError that
 /// says what the file holds.
 [[nodiscard]] bool holds_archived_fractions(const std::filesystem::path& path, GridShape grid);
-/// Whether a file (.txt, .csv, .dat) begins with a row of at least eight numbers, as NumPy, MATLAB
-/// and spreadsheets write matrices. Reads the beginning of the file only.
-[[nodiscard]] bool is_text_map(const std::filesystem::path& path);
-/// Whether the suffix is .txt, .csv or .dat.
-[[nodiscard]] bool has_text_suffix(const std::filesystem::path& path);
 
 /// Scale between maps and views of another size.
 struct ResampledMaps {

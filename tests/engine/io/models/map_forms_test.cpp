@@ -5,6 +5,7 @@
 #include "engine/io/base/npy.h"
 #include "engine/io/formats/write_arrays.h"
 #include "engine/io/models/external_result.h"
+#include "tests/engine/io/base/exr_file.h"
 #include "tests/engine/io/formats/array_files.h"
 #include "tests/test_main.h"
 
@@ -48,6 +49,10 @@ void write_csv(const std::filesystem::path& path, const ViewStack<float>& maps) 
   io::write_csv_map(path, maps.view({0, 0}));
 }
 
+void write_exr(const std::filesystem::path& path, const ViewStack<float>& maps) {
+  test::write_exr(path, {{"Y", maps.view({0, 0})}});
+}
+
 void write_npz(const std::filesystem::path& path, const ViewStack<float>& maps) {
   io::write_npz_maps(path, result_of(maps));
 }
@@ -82,7 +87,7 @@ class MapFormsTest : public QObject {
   }
   Image<float> csv_map(const char* text) const {
     io::write_atomically(path("map.csv"), std::string_view(text));
-    return io::read_csv_map(path("map.csv"));
+    return io::read_text_map(path("map.csv"));
   }
 
  private slots:
@@ -95,6 +100,8 @@ class MapFormsTest : public QObject {
     QTest::newRow("mat 7.3") << "a.mat" << &write_mat << false;
     QTest::newRow("mat 5") << "five.mat" << &write_mat5 << false;
     QTest::newRow("csv") << "a.csv" << &write_csv << false;
+    QTest::newRow("text") << "a.txt" << &write_csv << false;
+    QTest::newRow("exr") << "a.exr" << &write_exr << false;
     QTest::newRow("npy of all views") << "b.npy" << &io::write_npy_maps << true;
     QTest::newRow("npz of all views") << "b.npz" << &write_npz << true;
     QTest::newRow("mat of all views") << "b.mat" << &write_mat << true;
@@ -173,6 +180,7 @@ class MapFormsTest : public QObject {
     QTest::newRow("semicolons, comment, CR LF") << "# a map\r\n1; 2.5; -0.3\r\n4;NaN;6\r\n";
     QTest::newRow("spaces") << "  1 2.5   -.3\n\n4 nan 6";
     QTest::newRow("tabs") << "1\t2.5\t-0.3\n4\t-inf\t+6\n";
+    QTest::newRow("decimal commas, a comment of MATLAB") << "% a map\n1;2,5;-0,3\n4;NaN;6\n";
   }
   void csv_takesWhatProgramsWrite() {
     QFETCH(QString, text);

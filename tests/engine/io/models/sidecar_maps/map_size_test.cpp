@@ -160,7 +160,7 @@ class MapSizeTest : public QObject {
     const Scene scene = folder_->open();
 
     QVERIFY(scene.truth->field.empty());
-    QVERIFY(warns_of(scene, "row 61 of this matrix has 3 numbers, but the first has 72"));
+    QVERIFY(warns_of(scene, "line 61 has 3 values, but the first row has 72"));
   }
 
   void fileCalledGroundTruth_isDisparity() {
