@@ -123,15 +123,11 @@ std::string sign_warning(const ConventionReport& report) {
          "; if they are exchanged, reverse both axes with --flip both.";
 }
 
-namespace {
-
-/// Kinds of files that were used are plurals.
-std::string counted_kind(const FileUse& use) {
-  const bool is_single = use.is_used && use.count == 1 && use.kind.ends_with('s');
-  return is_single ? use.kind.substr(0, use.kind.size() - 1) : use.kind;
+std::string singular_kind(std::string kind) {
+  const std::size_t end = std::min(kind.find(" of "), kind.size());
+  if (end > 0 && kind[end - 1] == 's') kind.erase(end - 1, 1);
+  return kind;
 }
-
-}  // namespace
 
 std::string files_text(const ConventionReport& report,
                        const std::function<std::string(const std::string&)>& words) {
@@ -139,7 +135,8 @@ std::string files_text(const ConventionReport& report,
   std::string unused;
   for (const FileUse& use : report.files) {
     std::string& text = use.is_used ? used : unused;
-    text += (text.empty() ? "" : ", ") + std::to_string(use.count) + " " + words(counted_kind(use));
+    const std::string kind = use.is_used && use.count == 1 ? singular_kind(use.kind) : use.kind;
+    text += (text.empty() ? "" : ", ") + std::to_string(use.count) + " " + words(kind);
     if (!use.is_used && use.kind != use.example) text += " (" + use.example + ")";
   }
   if (unused.empty()) return used;

@@ -46,7 +46,10 @@ struct SceneSummary {
 /// A warning that disparities may be negated, where near and far were not told apart; else empty.
 [[nodiscard]] std::string sign_warning(const ConventionReport& report);
 
-/// "81 views, 1 disparity; not used: 3 *.txt (notes.txt, …)"; `words` translates kinds and
+/// One of a kind that FileUse counts: "mask of valid pixels" of "masks of valid pixels".
+[[nodiscard]] std::string singular_kind(std::string kind);
+
+/// "81 views, 1 disparity map; not used: 3 *.txt (notes.txt, …)"; `words` translates kinds and
 /// kNotUsed. Empty if no folder was read.
 inline constexpr const char* kNotUsed = "not used: ";
 [[nodiscard]] std::string files_text(

@@ -2,6 +2,7 @@
 // episcope_texts SOURCES: prints the English texts that the engine holds and the window shows, in a
 // form that Qt's lupdate reads. They come from tables and schemas, and from literal sentences in
 // SOURCES/engine and SOURCES/app/session.
+#include "app/session/scene_summary.h"
 #include "engine/capture/calibrate.h"
 #include "engine/capture/rectify.h"
 #include "engine/core/error.h"
@@ -123,12 +124,28 @@ Texts schema_texts() {
     add(texts, companion_name(kind));
   }
   // What readers count (FileUse).
-  for (const char* each :
-       {"depth map",      "depth maps",      "label file",    "label files", "label picture",
-        "label pictures", "light field",     "manifest",      "mosaic",      "mosaics",
-        "parameter file", "parameter files", "pose file",     "pose files",  "results",
-        "scribble file",  "scribble files",  "segmentations", "view",        "views"}) {
+  for (const char* each : {"depth maps",
+                           "depth maps of the center view",
+                           "disparity maps",
+                           "disparity maps of the center view",
+                           "label files",
+                           "label maps",
+                           "label maps of the center view",
+                           "label pictures",
+                           "light field",
+                           "manifest",
+                           "masks of invalid pixels",
+                           "masks of valid pixels",
+                           "mosaics",
+                           "parameter files",
+                           "pose files",
+                           "region masks",
+                           "results",
+                           "scribble files",
+                           "segmentations",
+                           "views"}) {
     add(texts, each);
+    add(texts, singular_kind(each));
   }
   add(texts, kNotEnoughMemory);
   add(texts, kUnknownFailure);

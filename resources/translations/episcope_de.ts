@@ -8602,6 +8602,78 @@ s</translation>
         <source>writing edges</source>
         <translation>Kanten werden geschrieben</translation>
     </message>
+    <message>
+        <source>depth map of the center view</source>
+        <translation>Tiefenkarte der mittleren Ansicht</translation>
+    </message>
+    <message>
+        <source>depth maps of the center view</source>
+        <translation>Tiefenkarten der mittleren Ansicht</translation>
+    </message>
+    <message>
+        <source>disparity map</source>
+        <translation>Disparitätskarte</translation>
+    </message>
+    <message>
+        <source>disparity map of the center view</source>
+        <translation>Disparitätskarte der mittleren Ansicht</translation>
+    </message>
+    <message>
+        <source>disparity maps</source>
+        <translation>Disparitätskarten</translation>
+    </message>
+    <message>
+        <source>disparity maps of the center view</source>
+        <translation>Disparitätskarten der mittleren Ansicht</translation>
+    </message>
+    <message>
+        <source>label map</source>
+        <translation>Labelkarte</translation>
+    </message>
+    <message>
+        <source>label map of the center view</source>
+        <translation>Labelkarte der mittleren Ansicht</translation>
+    </message>
+    <message>
+        <source>label maps</source>
+        <translation>Labelkarten</translation>
+    </message>
+    <message>
+        <source>label maps of the center view</source>
+        <translation>Labelkarten der mittleren Ansicht</translation>
+    </message>
+    <message>
+        <source>mask of invalid pixels</source>
+        <translation>Maske ungültiger Pixel</translation>
+    </message>
+    <message>
+        <source>mask of valid pixels</source>
+        <translation>Maske gültiger Pixel</translation>
+    </message>
+    <message>
+        <source>masks of invalid pixels</source>
+        <translation>Masken ungültiger Pixel</translation>
+    </message>
+    <message>
+        <source>masks of valid pixels</source>
+        <translation>Masken gültiger Pixel</translation>
+    </message>
+    <message>
+        <source>region mask</source>
+        <translation>Maske einer Region</translation>
+    </message>
+    <message>
+        <source>region masks</source>
+        <translation>Masken von Regionen</translation>
+    </message>
+    <message>
+        <source>result</source>
+        <translation>Ergebnis</translation>
+    </message>
+    <message>
+        <source>segmentation</source>
+        <translation>Segmentierung</translation>
+    </message>
 </context>
 <context>
     <name>episcope::ScribbleController</name>

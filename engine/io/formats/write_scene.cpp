@@ -449,9 +449,12 @@ void write_truth(const fs::path& folder, const Scene& scene) {
   if (truth.field.contains(center)) {
     write_disparity_pfm(folder / kCenterDisparity, truth.field.view(center));
   }
-  const bool has_all = truth.has_disparity() && truth.field.disparity.grid() == field.grid();
-  for (int i = 0; has_all && i < field.grid().count(); ++i) {
-    write_disparity_pfm(folder / disparity_file_name(i), truth.field.view(field.grid().view_at(i)));
+  const bool is_of_center =
+      truth.field.disparity.grid().count() == 1 && truth.field.contains(center);
+  for (int i = 0; !is_of_center && i < field.grid().count(); ++i) {
+    const ViewIndex view = field.grid().view_at(i);
+    if (!truth.field.contains(view)) continue;
+    write_disparity_pfm(folder / disparity_file_name(i), truth.field.view(view));
   }
   if (truth.labels.contains(center) && !truth.labels.empty()) {
     const auto labels = truth.labels.view(center);

@@ -200,10 +200,20 @@ std::vector<MapSet::Entry> match_order(std::vector<KeyedFile> files, const ViewK
   return entries;
 }
 
-/// The view whose whole name the name of the map holds: 5_5 in "5_5_depth" and "depth_5_5".
+/// "Cam005" of "input_Cam005"; the whole name where its last word is not one of letters and digits.
+std::string telling_part(const std::string& name) {
+  const auto is_other = [](char c) { return !is_letter(c) && !is_digit(c); };
+  const auto begin = std::find_if(name.rbegin(), name.rend(), is_other).base();
+  const bool tells = std::any_of(begin, name.end(), is_letter) && is_digit(name.back());
+  return tells ? std::string(begin, name.end()) : name;
+}
+
+/// The view whose name, or whose telling part, the name of the map holds: 5_5 in "5_5_depth" and
+/// "depth_5_5".
 std::optional<int> view_in_name(const std::string& stem, const ViewKeys& views) {
   std::optional<int> found;
-  for (const auto& [name, view] : views.view_by_stem) {
+  for (const auto& [whole, view] : views.view_by_stem) {
+    const std::string name = telling_part(whole);
     for (std::size_t at = stem.find(name); at != std::string::npos; at = stem.find(name, at + 1)) {
       const auto is_inside = [&](std::size_t i) { return i < stem.size() && is_digit(stem[i]); };
       if (is_inside(at + name.size()) || (at > 0 && is_inside(at - 1))) continue;

@@ -122,6 +122,15 @@ class FindMapsTest : public QObject {
     QCOMPARE(found.sets.front().entries.front().view, view);
   }
 
+  void singleMap_isOfTheViewWhoseCounterItHas() {
+    touch("gt_disp_lowres_Cam007.pfm");
+
+    const io::FoundMapSets found = io::find_maps(views({3, 3}, "input_Cam00{}.png", 0), path());
+
+    QCOMPARE(found.sets.size(), std::size_t{1});
+    QCOMPARE(found.sets.front().entries.front().view, 7);
+  }
+
   void someMissingMaps_leaveTheOthersAtTheirViews() {
     const GridShape grid{5, 5};
     for (const char* name : {"2_2_disparity.npy", "2_4_disparity.npy", "5_5_disparity.npy"}) {
