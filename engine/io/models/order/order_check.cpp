@@ -459,7 +459,8 @@ OcclusionVotes votes_of(const LineMatches& matches) {
       for (const Arrivals& two : row) {
         if (two.smallest.x < 0 || !two.is_collision()) continue;
         const int vote = winner(windows, y, two, static_cast<float>(side));
-        if (vote != 0) tally.add(y, two.smallest.x, vote);
+        // Reversed views exchange the two: their middle stays.
+        if (vote != 0) tally.add(y, (two.smallest.x + two.largest.x) / 2, vote);
       }
     }
   }
