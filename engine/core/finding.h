@@ -234,10 +234,10 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
     {"sign.no_edges", "no depth edges with clear occlusion: {} points for this order, {} against"},
     // Truth.
     {"truth.unchecked",
-     "The values of the ground truth could not be checked: one disparity for all explains the "
-     "views as "
-     "well, or better (where both differ, in {} squares of the view, the truth is better by "
-     "{:.1f} standard deviations of chance).",
+     "The values of the ground truth could not be checked: they explain the views no better than "
+     "one disparity for all, or better in few places only (where both differ, in {} squares of "
+     "the view, the truth leaves {:.0f} % of the error and is better by {:.1f} standard "
+     "deviations of chance).",
      "The ground truth could not be checked."},
     {"truth.poor",
      "The ground truth hardly explains the views: warped by it, they differ by {} grey levels "

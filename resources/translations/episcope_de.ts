@@ -2912,8 +2912,8 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Die Bilder des Films wurden aufgerichtet.</translation>
     </message>
     <message>
-        <source>The values of the ground truth could not be checked: one disparity for all explains the views as well, or better (where both differ, in %1 squares of the view, the truth is better by %2 standard deviations of chance).</source>
-        <translation>Die Werte der Referenz ließen sich nicht prüfen: Eine einzige Disparität erklärt die Ansichten ebenso gut oder besser (wo beide sich unterscheiden, in %1 Quadraten der Ansicht, ist die Referenz um %2 Standardabweichungen des Zufalls besser).</translation>
+        <source>The values of the ground truth could not be checked: they explain the views no better than one disparity for all, or better in few places only (where both differ, in %1 squares of the view, the truth leaves %2 % of the error and is better by %3 standard deviations of chance).</source>
+        <translation>Die Werte der Referenz ließen sich nicht prüfen: Sie erklären die Ansichten nicht besser als eine einzige Disparität, oder nur an wenigen Stellen besser (wo beide sich unterscheiden, in %1 Quadraten der Ansicht, lässt die Referenz %2 % des Fehlers übrig und ist um %3 Standardabweichungen des Zufalls besser).</translation>
     </message>
     <message>
         <source>The views are %3.</source>

@@ -65,7 +65,8 @@ std::string poor_truth(const WarpErrors& errors, const ConstantComparison& compa
   if (comparison.is_better()) return {};
   if (!errors.u.is_poor() && !errors.v.is_poor()) {
     if (!comparison.is_told()) return {};
-    return fmt::format(finding_text("truth.unchecked"), comparison.squares, comparison.score);
+    return fmt::format(finding_text("truth.unchecked"), comparison.squares, 100 * comparison.left,
+                       comparison.score);
   }
   const AxisErrors& worse = errors.u.is_poor() ? errors.u : errors.v;
   return fmt::format(
