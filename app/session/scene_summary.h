@@ -43,8 +43,9 @@ struct SceneSummary {
 /// Share of pixels of all views that hold something that was seen, in percent.
 [[nodiscard]] double valid_percent(const LightField& light_field);
 
-/// A warning that disparities may be negated, where near and far were not told apart; else empty.
-[[nodiscard]] std::string sign_warning(const ConventionReport& report);
+/// Warnings that rows and columns of views may be exchanged, or disparities negated, where nothing
+/// told them apart.
+[[nodiscard]] std::vector<std::string> order_warnings(const ConventionReport& report);
 
 /// "81 views, 1 disparity; not used: 3 *.txt (notes.txt, …)"; `words` translates kinds and
 /// kNotUsed. Empty if no folder was read.

@@ -2540,6 +2540,10 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>an der Referenz geprüft, mittlerer Graufehler nach dem Verzerren: %1</translation>
     </message>
     <message>
+        <source>by the truth: mean grey error of neighboring views after warping %1, as stored %2</source>
+        <translation>nach der Referenz: mittlerer Grauwertfehler benachbarter Ansichten nach dem Verschieben %1, wie gespeichert %2</translation>
+    </message>
+    <message>
         <source>checked by %1</source>
         <translation>geprüft: %1</translation>
     </message>
@@ -2638,6 +2642,10 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>not checked (a single view)</source>
         <translation>nicht geprüft (eine einzelne Ansicht)</translation>
+    </message>
+    <message>
+        <source>not checked (motion between views does not tell rows from columns)</source>
+        <translation>nicht geprüft (Bewegung zwischen Ansichten unterscheidet Zeilen nicht von Spalten)</translation>
     </message>
     <message>
         <source>not checked (one column of views)</source>
