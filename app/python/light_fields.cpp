@@ -31,9 +31,8 @@ namespace episcope::python {
 
 std::vector<std::string> OpenedScene::notes() const {
   std::vector<std::string> notes = scene->convention.warnings;
-  if (const std::string sign = sign_warning(scene->convention); !sign.empty()) {
-    notes.push_back(sign);
-  }
+  const std::vector<std::string> more = order_warnings(scene->convention);
+  notes.insert(notes.end(), more.begin(), more.end());
   return notes;
 }
 

@@ -116,11 +116,18 @@ double valid_percent(const LightField& light_field) {
   return 100 * (1 - static_cast<double>(invalid) / static_cast<double>(valid.size()));
 }
 
-std::string sign_warning(const ConventionReport& report) {
-  if (!report.sign.empty() || report.order_was_chosen) return {};
+std::vector<std::string> order_warnings(const ConventionReport& report) {
+  std::vector<std::string> warnings;
+  if (report.are_axes_unclear) {
+    warnings.emplace_back(
+        "Rows and columns of views could not be told apart; if they are exchanged, state them with "
+        "--pattern or --axes.");
+  }
+  if (!report.sign.empty() || report.order_was_chosen) return warnings;
   const std::string reason = report.sign_check.empty() ? "" : " (" + report.sign_check + ")";
-  return "Near and far could not be told apart" + reason +
-         "; if they are exchanged, reverse both axes with --flip both.";
+  warnings.push_back("Near and far could not be told apart" + reason +
+                     "; if they are exchanged, reverse both axes with --flip both.");
+  return warnings;
 }
 
 std::string singular_kind(std::string kind) {

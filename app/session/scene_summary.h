@@ -43,8 +43,9 @@ struct SceneSummary {
 /// Share of pixels of all views that hold something that was seen, in percent.
 [[nodiscard]] double valid_percent(const LightField& light_field);
 
-/// A warning that disparities may be negated, where near and far were not told apart; else empty.
-[[nodiscard]] std::string sign_warning(const ConventionReport& report);
+/// Warnings that rows and columns of views may be exchanged, or disparities negated, where nothing
+/// told them apart.
+[[nodiscard]] std::vector<std::string> order_warnings(const ConventionReport& report);
 
 /// One of a kind that FileUse counts: "mask of valid pixels" of "masks of valid pixels".
 [[nodiscard]] std::string singular_kind(std::string kind);

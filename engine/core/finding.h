@@ -201,6 +201,8 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
     {"order.by_doubtful_truth",
      "by the truth, which is in doubt, mean grey error after warping: {}"},
     {"order.axis_errors", "{} {} (other way {}), {} {} (other way {})"},
+    {"order.swapped_by_truth",
+     "by the truth: mean grey error of neighboring views after warping {:.2f}, as stored {:.2f}"},
     {"order.by_occlusion", "checked by {}"},
     {"order.direction", "direction checked by {}"},
     {"order.of_pictures", "the pictures of a file do not say how they are ordered"},
@@ -213,6 +215,7 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
     {"order.one_row", "not checked (one row of views)"},
     {"order.one_column", "not checked (one column of views)"},
     {"order.no_texture", "not checked (too little depth or texture)"},
+    {"order.axes_unclear", "not checked (motion between views does not tell rows from columns)"},
     {"sign.occlusion", "occlusion: {} points to {}, in {} squares of the view to {}"},
     {"sign.by", "by occlusion: {} points to {}, in {} squares of the view to {}"},
     {"sign.by_truth", "by truth: {}"},
@@ -234,10 +237,10 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
     {"sign.no_edges", "no depth edges with clear occlusion: {} points for this order, {} against"},
     // Truth.
     {"truth.unchecked",
-     "The values of the ground truth could not be checked: one disparity for all explains the "
-     "views as "
-     "well, or better (where both differ, in {} squares of the view, the truth is better by "
-     "{:.1f} standard deviations of chance).",
+     "The values of the ground truth could not be checked: they explain the views no better than "
+     "one disparity for all, or better in few places only (where both differ, in {} squares of "
+     "the view, the truth leaves {:.0f} % of the error and is better by {:.1f} standard "
+     "deviations of chance).",
      "The ground truth could not be checked."},
     {"truth.poor",
      "The ground truth hardly explains the views: warped by it, they differ by {} grey levels "

@@ -140,6 +140,7 @@ struct ConventionReport {
                                   ///< built-in scenes and single views, not at all.
   std::string units;              ///< How depth was turned into disparity,
   std::string units_check;        ///< and what spoke for it; may be empty.
+  bool are_axes_unclear = false;  ///< Nothing tells rows of views from columns.
   bool order_was_chosen = false;  ///< The user overruled the reader,
   bool units_were_chosen = false;     ///< and here.
   std::vector<std::string> warnings;  ///< A sentence each.

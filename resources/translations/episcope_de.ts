@@ -2540,6 +2540,10 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>an der Referenz geprüft, mittlerer Graufehler nach dem Verzerren: %1</translation>
     </message>
     <message>
+        <source>by the truth: mean grey error of neighboring views after warping %1, as stored %2</source>
+        <translation>nach der Referenz: mittlerer Grauwertfehler benachbarter Ansichten nach dem Verschieben %1, wie gespeichert %2</translation>
+    </message>
+    <message>
         <source>checked by %1</source>
         <translation>geprüft: %1</translation>
     </message>
@@ -2638,6 +2642,10 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>not checked (a single view)</source>
         <translation>nicht geprüft (eine einzelne Ansicht)</translation>
+    </message>
+    <message>
+        <source>not checked (motion between views does not tell rows from columns)</source>
+        <translation>nicht geprüft (Bewegung zwischen Ansichten unterscheidet Zeilen nicht von Spalten)</translation>
     </message>
     <message>
         <source>not checked (one column of views)</source>
@@ -2912,8 +2920,8 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Die Bilder des Films wurden aufgerichtet.</translation>
     </message>
     <message>
-        <source>The values of the ground truth could not be checked: one disparity for all explains the views as well, or better (where both differ, in %1 squares of the view, the truth is better by %2 standard deviations of chance).</source>
-        <translation>Die Werte der Referenz ließen sich nicht prüfen: Eine einzige Disparität erklärt die Ansichten ebenso gut oder besser (wo beide sich unterscheiden, in %1 Quadraten der Ansicht, ist die Referenz um %2 Standardabweichungen des Zufalls besser).</translation>
+        <source>The values of the ground truth could not be checked: they explain the views no better than one disparity for all, or better in few places only (where both differ, in %1 squares of the view, the truth leaves %2 % of the error and is better by %3 standard deviations of chance).</source>
+        <translation>Die Werte der Referenz ließen sich nicht prüfen: Sie erklären die Ansichten nicht besser als eine einzige Disparität, oder nur an wenigen Stellen besser (wo beide sich unterscheiden, in %1 Quadraten der Ansicht, lässt die Referenz %2 % des Fehlers übrig und ist um %3 Standardabweichungen des Zufalls besser).</translation>
     </message>
     <message>
         <source>The views are %3.</source>

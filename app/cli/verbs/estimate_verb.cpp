@@ -303,9 +303,7 @@ class Runner {
   [[nodiscard]] Scene load(const Task& task, const Progress& progress) {
     Scene scene = load_input(task.input, options_of(task), false, progress);
     for (const auto& warning : scene.convention.warnings) note(task, warning);
-    if (const std::string warning = sign_warning(scene.convention); !warning.empty()) {
-      note(task, warning);
-    }
+    for (const auto& warning : order_warnings(scene.convention)) note(task, warning);
     Scene bare;
     bare.light_field = std::move(scene.light_field);
     bare.truth = std::make_shared<const GroundTruth>();

@@ -171,8 +171,8 @@ std::unique_ptr<ArrayFile> with_stacked_channels(const ArrayFile& file,
   const std::vector<ArrayLayout> layouts = possible_layouts(list.shape, list.order);
   if (layouts.size() != 1 || layouts.front().axes != "nyx") return nullptr;
   const ArrayLayout as_grid{grouped(list.shape), "vuyx"};
-  const auto [along_u, along_v] = measure_parallax(GroupedInput(file.open(list)), as_grid);
-  if (!are_rather_channels(along_u, along_v)) return nullptr;
+  const ViewAxes axes = measure_parallax(GroupedInput(file.open(list)), as_grid);
+  if (!are_rather_channels(axes.along_u, axes.along_v)) return nullptr;
   return std::make_unique<GroupedFile>(file, list.name);
 }
 

@@ -132,14 +132,13 @@ void add_camera(const PosedViews& poses, const LightField::Samples& samples, Cam
 }
 
 /// Exchanges rows and columns of views where the motion between them says so without doubt, before
-/// maps are judged by the views beside them. Returns why, or nothing; null where that cannot be
-/// done yet.
-std::optional<std::string> settle_axes(ViewFiles& views, LoadedViews& pixels,
+/// maps are judged by the views beside them. Nothing where that cannot be done yet.
+std::optional<AxesFinding> settle_axes(ViewFiles& views, LoadedViews& pixels,
                                        std::vector<CameraPosition>& positions,
                                        const OpenOptions& options, const Progress& progress) {
   if (views.part || are_axes_stated(options)) return std::nullopt;
   const ViewAxes axes = find_view_axes(pixels.samples, progress);
-  if (!axes.are_swapped()) return std::string();
+  if (!axes.are_swapped()) return AxesFinding{{}, axes.are_unclear()};
   const GridShape stored = views.grid;
   swap_view_axes(pixels.samples);
   swap_view_axes(pixels.valid);
@@ -151,7 +150,7 @@ std::optional<std::string> settle_axes(ViewFiles& views, LoadedViews& pixels,
     views.files[static_cast<std::size_t>(i)] =
         files[static_cast<std::size_t>(view.u * stored.u + view.v)];
   }
-  return axes.evidence();
+  return AxesFinding{axes.evidence()};
 }
 
 /// "image grid (out_{row}_{col}.png, snake order)", with the folder inside of what was opened.
@@ -238,7 +237,7 @@ Scene read_image_grid(const fs::path& folder, const OpenOptions& options, const 
     parts.truth.field = extras.read_truth(samples, info.camera, report);
   } else {
     progress.step("checking the order of views");
-    parts.swapped_axes =
+    parts.axes =
         settle_axes(views, usable.pixels, info.positions, options, progress.part(0.7, 0.75));
     SidecarMaps beside =
         read_sidecar_maps({views, folder, samples, info.camera, options.map_views(),

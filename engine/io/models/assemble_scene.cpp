@@ -11,6 +11,7 @@
 #include "engine/io/models/load_views.h"
 #include "engine/io/models/order/truth_views.h"
 #include "engine/io/models/order/view_axes.h"
+#include "engine/io/models/order/warp_check.h"
 
 #include <fmt/format.h>
 
@@ -22,21 +23,47 @@
 namespace episcope::io {
 namespace {
 
-/// Swaps rows and columns of views where the motion between them says so; returns the evidence.
-std::string order_axes(SceneParts& parts, bool are_axes_known, ConventionReport& report,
-                       const Progress& progress) {
-  const ViewAxes axes = find_view_axes(parts.samples, progress);
-  if (!axes.are_swapped()) return {};
-  if (are_axes_known) {
-    report.warnings.push_back(fmt::format(finding_text("order.swapped"), axes.evidence()));
-    return {};
-  }
+/// Views and all that belongs to them: names pair truth with views.
+void swap_axes(SceneParts& parts) {
   const GridShape stored = grid_of(parts.samples);
   swap_view_axes(parts.samples);
   swap_view_axes(parts.truth);
   swap_view_axes(parts.valid);
   swap_view_axes(parts.info.positions, stored);
-  return axes.evidence();
+}
+
+/// Of the views as they are, warped by the map of one of them.
+double error_by_truth(const SceneParts& parts) {
+  const DisparityField& field = parts.truth.field;
+  const ViewIndex at = told_view(field, grid_of(parts.samples));
+  return warp_errors(parts.samples, at, field.view(at)).best();
+}
+
+/// Swaps rows and columns of views if the truth explains far better what that makes.
+AxesFinding order_axes_by_truth(SceneParts& parts) {
+  constexpr double kFarBetter = 0.6;
+  if (parts.truth.field.empty()) return {{}, true};
+  const double as_stored = error_by_truth(parts);
+  swap_axes(parts);
+  const double swapped = error_by_truth(parts);
+  if (swapped < kFarBetter * as_stored) {
+    return {fmt::format(finding_text("order.swapped_by_truth"), swapped, as_stored)};
+  }
+  swap_axes(parts);
+  return {{}, true};
+}
+
+/// Swaps rows and columns of views where the motion between them says so.
+AxesFinding order_axes(SceneParts& parts, bool are_axes_known, ConventionReport& report,
+                       const Progress& progress) {
+  const ViewAxes axes = find_view_axes(parts.samples, progress);
+  if (!axes.are_swapped()) return {{}, !are_axes_known && axes.are_unclear()};
+  if (are_axes_known) {
+    report.warnings.push_back(fmt::format(finding_text("order.swapped"), axes.evidence()));
+    return {};
+  }
+  swap_axes(parts);
+  return {axes.evidence()};
 }
 
 /// A camera that zooms or turns makes no light field, but a list that looks like a line of views.
@@ -75,6 +102,7 @@ void put_in_order(SceneParts& parts, Flip choice, ConventionReport& report,
   report.order = finding.order;
   report.order_check = finding.check;
   report.order_was_chosen = finding.was_chosen;
+  report.are_axes_unclear = finding.are_axes_unclear;
   report.sign = finding.sign;
   report.sign_check = finding.sign_check;
   report.reversed_u = finding.flip.u;
@@ -123,12 +151,13 @@ void bring_in_order(SceneParts& parts, const OpenOptions& options, ConventionRep
                     const Progress& progress) {
   progress.step("checking the order of views");
   const bool are_axes_known = parts.expected.are_axes_known || are_axes_stated(options);
-  const std::string swapped =
-      parts.swapped_axes ? *parts.swapped_axes
-                         : order_axes(parts, are_axes_known, report, progress.part(0, 0.4));
+  AxesFinding axes =
+      parts.axes ? *parts.axes : order_axes(parts, are_axes_known, report, progress.part(0, 0.4));
+  if (axes.are_unclear) axes = order_axes_by_truth(parts);
+  parts.expected.are_axes_unclear = axes.are_unclear;
   check_line(parts, report, progress.part(0.4, 0.5));
   put_in_order(parts, options.flip, report, progress.part(0.5, 1));
-  complete_order(parts, swapped, report);
+  complete_order(parts, axes.swapped, report);
 }
 
 /// Gains that differ by less from 1 are within the accuracy of their measurement.

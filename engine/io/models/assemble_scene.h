@@ -3,6 +3,7 @@
 
 #include "engine/core/scene.h"
 #include "engine/io/models/order/order_check.h"
+#include "engine/io/models/order/view_axes.h"
 
 #include <filesystem>
 #include <map>
@@ -20,10 +21,8 @@ struct SceneParts {
   ExpectedOrder expected;
   /// 0 = a pixel without content, in the order of views as stored; empty = all are valid.
   ViewStack<std::uint8_t> valid{};
-  std::vector<FileUse> files{};  ///< What became of the files of the folder (FileUsage).
-  /// Set if the reader has compared rows and columns: the reason why it swapped them, or an empty
-  /// text.
-  std::optional<std::string> swapped_axes{};
+  std::vector<FileUse> files{};       ///< What became of the files of the folder (FileUsage).
+  std::optional<AxesFinding> axes{};  ///< Set if the reader has compared rows and columns.
 };
 
 /// Finishes reading: brings the parts into canonical order, sets samples that are not finite to 0,

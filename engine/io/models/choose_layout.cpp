@@ -109,8 +109,9 @@ std::optional<ArrayLayout> layout_with_motion(const ArrayFile& file, const Array
   const std::unique_ptr<ArrayInput> array = file.open(entry);
   std::optional<ArrayLayout> found;
   for (const ArrayLayout& layout : layouts) {
-    const auto [along_u, along_v] = measure_parallax(*array, layout);
-    const bool moves = (along_u.is_x() && along_v.is_y()) || (along_u.is_y() && along_v.is_x());
+    const ViewAxes axes = measure_parallax(*array, layout);
+    const AxisEvidence &u = axes.along_u, &v = axes.along_v;
+    const bool moves = (u.is_x() && v.is_y()) || (u.is_y() && v.is_x());
     if (!moves) continue;
     if (found) return std::nullopt;
     found = layout;
@@ -134,9 +135,9 @@ std::optional<ArrayLayout> grid_or_list(const ArrayFile& file, const ArrayEntry&
   }
   const char letter = grid.axes[channels];
   if (letter != 'v' && letter != 'u') return std::nullopt;
-  const auto [along_u, along_v] = measure_parallax(*file.open(entry), grid);
-  const AxisEvidence& of_channels = letter == 'v' ? along_v : along_u;
-  const AxisEvidence& of_views = letter == 'v' ? along_u : along_v;
+  const ViewAxes axes = measure_parallax(*file.open(entry), grid);
+  const AxisEvidence& of_channels = letter == 'v' ? axes.along_v : axes.along_u;
+  const AxisEvidence& of_views = letter == 'v' ? axes.along_u : axes.along_v;
   if (!of_views.is_decided()) return std::nullopt;
   if (of_channels.is_decided()) return grid;
   return are_rather_channels(of_channels, of_views) ? std::optional(list) : std::nullopt;
@@ -251,15 +252,13 @@ void check_layout(const ArrayInput& array, IndexOrder order, ChosenLayout& chose
                   const Progress& progress) {
   if (!chosen.reason.starts_with("by shape") || chosen.layout.has('n')) return;
   progress.step("telling rows from columns of views");
-  const auto [along_u, along_v] = measure_parallax(array, chosen.layout);
-  const double score = along_u.score() - along_v.score();
-  const bool says_crossed = along_u.is_y() || along_v.is_x();
-  const bool says_straight = along_u.is_x() || along_v.is_y();
-  if (says_straight && !says_crossed) {
-    chosen.reason += fmt::format("; parallax agrees ({:.1f} σ)", score);
-  } else if (says_crossed && !says_straight) {
+  const ViewAxes axes = measure_parallax(array, chosen.layout);
+  if (axes.are_straight()) {
+    chosen.reason += fmt::format("; parallax agrees ({:.1f} σ)", axes.score());
+  } else if (axes.are_crossed()) {
     chosen.layout = chosen.layout.crossed();
-    chosen.reason += fmt::format("; rows and columns of views by parallax ({:.1f} σ)", -score);
+    chosen.reason +=
+        fmt::format("; rows and columns of views by parallax ({:.1f} σ)", -axes.score());
   } else {
     chosen.reason += "; parallax does not tell rows from columns of views";
     chosen.warning = fmt::format(finding_text("views.axes_unclear"),
@@ -277,7 +276,7 @@ double gone(const AxisEvidence& evidence) {
 
 }  // namespace
 
-Parallax measure_parallax(const ArrayInput& array, const ArrayLayout& layout) {
+ViewAxes measure_parallax(const ArrayInput& array, const ArrayLayout& layout) {
   const GridShape grid = layout.grid();
   const ViewIndex center = grid.center();
   std::vector<ViewIndex> views{center};
@@ -285,7 +284,7 @@ Parallax measure_parallax(const ArrayInput& array, const ArrayLayout& layout) {
   if (grid.v > 1) views.push_back({center.v - 1, center.u});
   const std::vector<Image<float>> windows = array_windows(array, layout, views, kParallaxWindow);
   const MotionPictures middle(windows.front());
-  Parallax parallax;
+  ViewAxes parallax;
   for (std::size_t i = 1; i < views.size(); ++i) {
     AxisEvidence& axis = views[i].u == center.u ? parallax.along_v : parallax.along_u;
     axis.add(MotionPictures(windows[i]), middle);

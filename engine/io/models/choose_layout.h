@@ -54,14 +54,9 @@ struct ChosenLayout {
 void check_layout(const ArrayInput& array, IndexOrder order, ChosenLayout& chosen,
                   const Progress& progress);
 
-/// Motion between the center view and its neighbors along each axis of views.
-struct Parallax {
-  AxisEvidence along_u;
-  AxisEvidence along_v;
-};
-
-/// Reads the middle of at most three views. Throws IoError.
-[[nodiscard]] Parallax measure_parallax(const ArrayInput& array, const ArrayLayout& layout);
+/// Compares the center view with its neighbor along each axis: reads the middle of at most three
+/// views. Throws IoError.
+[[nodiscard]] ViewAxes measure_parallax(const ArrayInput& array, const ArrayLayout& layout);
 
 /// Whether an axis holds channels rather than views: motion explains the other axis, and clearly
 /// less of this one.

@@ -206,7 +206,9 @@ struct BestShifts {
     for (std::size_t k = 0; k < costs.size(); ++k) {
       const float value = costs.data()[k];
       sum.data()[k] += value;
-      if (value < cost.data()[k]) {
+      // Beside the border all shifts out of the view cost as much: none of them is distinct.
+      const bool is_as_far = value == cost.data()[k] && std::abs(tried) > std::abs(shift.data()[k]);
+      if (value < cost.data()[k] || is_as_far) {
         cost.data()[k] = value;
         shift.data()[k] = static_cast<float>(tried);
       }

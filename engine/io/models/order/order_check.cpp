@@ -51,7 +51,8 @@ struct Checked {
   std::string warning = {};
   bool is_sign_known = false;
   std::string sign_text = {};
-  bool is_poor = false;  ///< Of a truth: it hardly explains the views in any order.
+  bool is_poor = false;      ///< Of a truth: it hardly explains the views in any order.
+  bool proves_axes = false;  ///< Likewise: along rows and columns as stored.
 
   /// Whether another order contradicts what was found.
   [[nodiscard]] bool contradicts(ViewFlip other) const {
@@ -65,7 +66,8 @@ std::string poor_truth(const WarpErrors& errors, const ConstantComparison& compa
   if (comparison.is_better()) return {};
   if (!errors.u.is_poor() && !errors.v.is_poor()) {
     if (!comparison.is_told()) return {};
-    return fmt::format(finding_text("truth.unchecked"), comparison.squares, comparison.score);
+    return fmt::format(finding_text("truth.unchecked"), comparison.squares, 100 * comparison.left,
+                       comparison.score);
   }
   const AxisErrors& worse = errors.u.is_poor() ? errors.u : errors.v;
   return fmt::format(
@@ -91,6 +93,7 @@ Checked check_by_truth(const LightField::Samples& samples, const std::vector<Ord
     const std::string errors_text =
         axis_text("u", errors.u, checked.flip.u) + ", " + axis_text("v", errors.v, checked.flip.v);
     const bool is_sure = checked.warning.empty();
+    checked.proves_axes = is_sure;
     checked.text = fmt::format(fmt::runtime(is_sure ? finding_text("order.by_truth")
                                                     : finding_text("order.by_doubtful_truth")),
                                errors_text);
@@ -129,7 +132,8 @@ void add_occlusion(const CoarseMotion& coarse, Checked& checked, const Progress&
   checked.is_decided = true;
 }
 
-std::string not_checked_text(GridShape grid) {
+std::string not_checked_text(GridShape grid, bool are_axes_unclear) {
+  if (are_axes_unclear) return std::string(finding_text("order.axes_unclear"));
   if (grid.count() == 1) return std::string(finding_text("order.single_view"));
   if (grid.v == 1) return std::string(finding_text("order.one_row"));
   if (grid.u == 1) return std::string(finding_text("order.one_column"));
@@ -182,8 +186,11 @@ OrderFinding find_order(const LightField::Samples& samples, const std::vector<Or
   }
 
   finding.flip = checked.flip;
-  finding.check = checked.is_decided ? checked.text
-                                     : not_checked_text(grid_of(samples)) + "; " + expected.reason;
+  finding.are_axes_unclear = expected.are_axes_unclear && !checked.proves_axes;
+  const bool is_checked = checked.is_decided && !finding.are_axes_unclear;
+  finding.check = is_checked ? checked.text
+                             : not_checked_text(grid_of(samples), finding.are_axes_unclear) + "; " +
+                                   expected.reason;
   finding.sign = checked.is_sign_known ? "checked" : "";
   finding.sign_check = checked.sign_text;
   if (choice != Flip::Auto) {
@@ -459,7 +466,8 @@ OcclusionVotes votes_of(const LineMatches& matches) {
       for (const Arrivals& two : row) {
         if (two.smallest.x < 0 || !two.is_collision()) continue;
         const int vote = winner(windows, y, two, static_cast<float>(side));
-        if (vote != 0) tally.add(y, two.smallest.x, vote);
+        // Reversed views exchange the two: their middle stays.
+        if (vote != 0) tally.add(y, (two.smallest.x + two.largest.x) / 2, vote);
       }
     }
   }

@@ -25,6 +25,8 @@ struct ExpectedOrder {
   bool are_axes_known = false;
   /// The sign of the truth is only assumed: negated, it would fit the opposite order as well.
   bool is_truth_sign_assumed = false;
+  /// Motion between views does not tell rows from columns: only truth can check the order.
+  bool are_axes_unclear = false;
 };
 
 /// The view by whose map the others are judged: the center, or the first of those there are.
@@ -41,11 +43,12 @@ struct OrderEvidence {
 
 struct OrderFinding {
   ViewFlip flip;
-  std::string order;        ///< As ConventionReport::order,
-  std::string check;        ///< `order_check`
-  bool was_chosen = false;  ///< and `order_was_chosen`.
-  std::string sign;         ///< As ConventionReport::sign
-  std::string sign_check;   ///< and `sign_check`.
+  std::string order;              ///< As ConventionReport::order,
+  std::string check;              ///< `order_check`
+  bool was_chosen = false;        ///< and `order_was_chosen`
+  bool are_axes_unclear = false;  ///< and `are_axes_unclear`.
+  std::string sign;               ///< As ConventionReport::sign
+  std::string sign_check;         ///< and `sign_check`.
   std::vector<std::string> warnings;
 };
 

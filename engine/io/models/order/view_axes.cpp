@@ -15,6 +15,7 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -162,24 +163,52 @@ namespace {
 constexpr int kFarthestNeighbour = 8;
 /// Swapping axes against what names or files say takes more than looking at them.
 constexpr double kWithoutDoubt = 8;
+/// Of views of a line: those beside the center, and as many as are looked at in doubt.
+constexpr int kNextPairs = 2, kMostPairs = 8;
+
+/// The views of the line along an axis through the center of the grid.
+class ViewLine {
+ public:
+  ViewLine(const LightField::Samples& samples, bool is_v) : samples_(samples), is_v_(is_v) {}
+
+  [[nodiscard]] int count() const { return is_v_ ? grid_.v : grid_.u; }
+  /// Of up to `most` pairs of views `step` apart, from the center outwards.
+  [[nodiscard]] AxisEvidence evidence(int step, int most) {
+    AxisEvidence sum;
+    for (int i = 0; i < most; ++i) {
+      const int steps_out = i % 2 == 0 ? -1 - i / 2 : i / 2;
+      const int place = (is_v_ ? center_.v : center_.u) + steps_out * step;
+      if (place >= 0 && place + step < count()) sum.add(picture(place), picture(place + step));
+    }
+    return sum;
+  }
+
+ private:
+  const MotionPictures& picture(int place) {
+    const auto [found, is_new] = pictures_.try_emplace(place);
+    const ViewIndex view = is_v_ ? ViewIndex{place, center_.u} : ViewIndex{center_.v, place};
+    if (is_new) found->second = MotionPictures(grey_levels(samples_, view));
+    return found->second;
+  }
+
+  const LightField::Samples& samples_;
+  bool is_v_;
+  GridShape grid_ = grid_of(samples_);
+  ViewIndex center_ = grid_.center();
+  std::map<int, MotionPictures> pictures_;
+};
 
 AxisEvidence evidence_along(const LightField::Samples& samples, bool is_v,
                             const Progress& progress) {
-  const GridShape grid = grid_of(samples);
-  const ViewIndex center = grid.center();
-  const auto picture = [&](ViewIndex view) { return MotionPictures(grey_levels(samples, view)); };
+  ViewLine line(samples, is_v);
   AxisEvidence clearest;
-  if ((is_v ? grid.v : grid.u) < 2) return clearest;
-  const MotionPictures middle = picture(center);
-  for (int step = 1; step <= kFarthestNeighbour; step *= 2) {
-    progress.check();
-    AxisEvidence evidence;
-    for (const int offset : {-step, step}) {
-      const ViewIndex view{center.v + (is_v ? offset : 0), center.u + (is_v ? 0 : offset)};
-      if (grid.contains(view)) evidence.add(middle, picture(view));
+  for (const int pairs : {kNextPairs, kMostPairs}) {
+    for (int step = 1; step <= kFarthestNeighbour && step < line.count(); step *= 2) {
+      progress.check();
+      const AxisEvidence evidence = line.evidence(step, pairs);
+      if (std::abs(evidence.score()) > std::abs(clearest.score())) clearest = evidence;
+      if (clearest.is_decided() && std::abs(clearest.score()) > kWithoutDoubt) return clearest;
     }
-    if (std::abs(evidence.score()) > std::abs(clearest.score())) clearest = evidence;
-    if (clearest.is_decided() && std::abs(clearest.score()) > kWithoutDoubt) break;
   }
   return clearest;
 }
@@ -217,10 +246,27 @@ std::string share_text(const char* which, const AxisEvidence& evidence) {
 
 }  // namespace
 
+double ViewAxes::score() const {
+  const int axes = (along_u.has_pairs() ? 1 : 0) + (along_v.has_pairs() ? 1 : 0);
+  return axes > 0 ? (along_u.score() - along_v.score()) / std::sqrt(axes) : 0;
+}
+
+bool ViewAxes::are_straight() const {
+  return (along_u.is_x() || along_v.is_y()) && !along_u.is_y() && !along_v.is_x();
+}
+
+bool ViewAxes::are_crossed() const {
+  return (along_u.is_y() || along_v.is_x()) && !along_u.is_x() && !along_v.is_y();
+}
+
+bool ViewAxes::are_unclear() const {
+  return is_grid && !are_straight() && !are_swapped();
+}
+
 bool ViewAxes::are_swapped() const {
-  const bool u_is_y = along_u.is_y() && along_u.score() < -kWithoutDoubt;
-  const bool v_is_x = along_v.is_x() && along_v.score() > kWithoutDoubt;
-  return (u_is_y && v_is_x) || (u_is_y && !along_v.has_pairs()) || (v_is_x && !along_u.has_pairs());
+  const bool has_both =
+      (along_u.is_y() || !along_u.has_pairs()) && (along_v.is_x() || !along_v.has_pairs());
+  return has_both && score() < -kWithoutDoubt;
 }
 
 std::string ViewAxes::evidence() const {
@@ -234,7 +280,8 @@ std::string ViewAxes::evidence() const {
 ViewAxes find_view_axes(const LightField::Samples& samples, const Progress& progress) {
   const auto [u, v] =
       along_both_axes(progress, [&](bool is_v) { return evidence_along(samples, is_v, progress); });
-  return {u, v};
+  const GridShape grid = grid_of(samples);
+  return {u, v, grid.v > 1 && grid.u > 1};
 }
 
 void swap_view_axes(LightField::Samples& samples) {

@@ -57,7 +57,16 @@ class AxisEvidence {
 struct ViewAxes {
   AxisEvidence along_u;
   AxisEvidence along_v;
+  bool is_grid = false;  ///< There are rows and columns.
 
+  /// Standard scores by which motion fits columns and rows as stored, better than exchanged ones.
+  [[nodiscard]] double score() const;
+  /// Whether motion along an axis runs as stored, and along the other not the other way.
+  [[nodiscard]] bool are_straight() const;
+  /// Likewise, for columns that are rows and vice versa.
+  [[nodiscard]] bool are_crossed() const;
+  /// Whether there are both, and motion does not tell them apart.
+  [[nodiscard]] bool are_unclear() const;
   /// Whether stored columns are rows, and vice versa, beyond doubt: u moves along y and v along x,
   /// or the only axis does.
   [[nodiscard]] bool are_swapped() const;
@@ -65,9 +74,16 @@ struct ViewAxes {
   [[nodiscard]] std::string evidence() const;
 };
 
-/// Compares the center view with up to four neighbors along each axis, and with farther ones where
-/// the next ones do not decide. Throws Cancelled.
+/// Compares the center view with its neighbors along each axis, and with farther ones where the
+/// next ones do not decide; then up to eight pairs of views of the line through the center. Throws
+/// Cancelled.
 [[nodiscard]] ViewAxes find_view_axes(const LightField::Samples& samples, const Progress& progress);
+
+/// What became of rows and columns of views.
+struct AxesFinding {
+  std::string swapped;       ///< Why they were exchanged; empty = they were not.
+  bool are_unclear = false;  ///< Motion between the views of a grid does not tell them apart.
+};
 
 /// Exchanges rows and columns of views: view (v, u) goes to (u, v). Copies a grid that is not
 /// square.

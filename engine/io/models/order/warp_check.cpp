@@ -252,6 +252,8 @@ constexpr int kConstantSquare = 16;
 constexpr int kFewestConstantSquares = 8;
 /// Standard deviations of chance. The constant is the best of many, which leaves less to it.
 constexpr double kSignificantConstant = 2.7;
+/// Where few squares decide, chance is hard to exclude; of wrong maps none leaves as little error.
+constexpr double kFarBetterThanConstant = 0.5;
 constexpr int kSteps = 24;              ///< Constants tried to either side of 0.
 constexpr double kDiffers = 0.25;       ///< px between the map and the constant, or less in maps
 constexpr double kPartOfRange = 0.125;  ///< of which that is more than this part of the range;
@@ -347,9 +349,10 @@ double range_of(const std::vector<MapPoint>& points) {
   return quantile(values, 0.95) - quantile(values, 0.05);
 }
 
-/// By how much one map is better than another in a square.
+/// Errors of two maps in a square.
 struct Sum {
-  double better = 0;
+  double error = 0;
+  double other_error = 0;
   int points = 0;
 };
 using Squares = std::map<std::pair<int, int>, Sum>;
@@ -362,23 +365,27 @@ void add_pair(const WarpedPair& pair, const std::vector<MapPoint>& points, const
     const float by_other = pair.error(point, other(point));
     if (by_one < 0 || by_other < 0) continue;
     Sum& sum = squares[{point.y / kConstantSquare, point.x / kConstantSquare}];
-    sum.better += by_other - by_one;
+    sum.error += by_one;
+    sum.other_error += by_other;
     ++sum.points;
   }
 }
 
 ConstantComparison compared(const Squares& squares) {
-  double sum = 0, square = 0;
+  double sum = 0, square = 0, error = 0, other_error = 0;
   for (const auto& [place, one] : squares) {
-    const double better = one.better / one.points;
+    const double better = (one.other_error - one.error) / one.points;
     sum += better;
     square += better * better;
+    error += one.error;
+    other_error += one.other_error;
   }
   const auto count = static_cast<double>(squares.size());
-  if (count < kFewestConstantSquares) return {static_cast<int>(count), 0};
+  if (count < kFewestConstantSquares) return {static_cast<int>(count)};
   const double mean = sum / count;
   const double variance = std::max(square / count - mean * mean, 1e-9);
-  return {static_cast<int>(count), mean / std::sqrt(variance / count)};
+  return {static_cast<int>(count), mean / std::sqrt(variance / count),
+          error / std::max(other_error, 1e-9)};
 }
 
 }  // namespace
@@ -388,7 +395,7 @@ bool ConstantComparison::is_told() const {
 }
 
 bool ConstantComparison::is_better() const {
-  return is_told() && score > kSignificantConstant;
+  return is_told() && (score > kSignificantConstant || left < kFarBetterThanConstant);
 }
 
 ConstantComparison compare_with_constant(const LightField::Samples& samples, ViewIndex at,

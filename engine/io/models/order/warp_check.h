@@ -64,10 +64,11 @@ struct MapPoint {
 struct ConstantComparison {
   int squares = 0;   ///< Of 16×16 px in which the map differs from that disparity.
   double score = 0;  ///< By how many standard deviations of chance the map is better there.
+  double left = 1;   ///< What the map leaves of the error of that disparity there.
 
   /// Whether the map can be told from a constant.
   [[nodiscard]] bool is_told() const;
-  /// Whether the map is told from a constant and better by more than chance.
+  /// Whether the map is told from a constant, and better by more than chance or by half the error.
   [[nodiscard]] bool is_better() const;
 };
 

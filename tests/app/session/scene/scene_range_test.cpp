@@ -46,6 +46,20 @@ class SceneRangeTest : public QObject {
         std::get<ViewStack<std::uint8_t>>(scene.light_field->samples()).clone(), info);
     QCOMPARE(known_disparity_range(scene), (Interval{-3, 2}));
   }
+
+  void whatIsNotToldApart_isWarnedOf() {
+    ConventionReport report;
+    report.sign = "checked";
+    QVERIFY(order_warnings(report).empty());
+    report.sign = "";
+    report.are_axes_unclear = true;
+
+    const std::vector<std::string> warnings = order_warnings(report);
+
+    QCOMPARE(warnings.size(), std::size_t{2});
+    QVERIFY(warnings[0].starts_with("Rows and columns"));
+    QVERIFY(warnings[1].starts_with("Near and far"));
+  }
 };
 
 }  // namespace episcope::in_scene_range_test

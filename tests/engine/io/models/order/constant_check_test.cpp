@@ -76,6 +76,26 @@ class ConstantCheckTest : public QObject {
     QCOMPARE(finding.sign, std::string("checked"));
   }
 
+  /// What a few squares say is right, though chance is hard to exclude.
+  void rightTruthThatFewSquaresCheck_isNotDoubted() {
+    NearPlane plane;
+    for (int i = 0; i < plane.views.grid().count(); ++i) {
+      const auto view = plane.views.view(plane.views.view_at(i));
+      for (int y = 0; y < view.height; ++y) {
+        if (y >= 32 && y < 48) continue;
+        std::transform(
+            view.row(y), view.row(y) + view.row_stride, view.row(y),
+            [](std::uint8_t grey) { return static_cast<std::uint8_t>(127 + (grey - 127) / 24); });
+      }
+    }
+
+    const io::ConstantComparison comparison =
+        io::compare_with_constant(plane.views.clone(), kCenter, plane.truth(), plane.errors());
+
+    QVERIFY2(comparison.is_better(), qPrintable(QString::number(comparison.left)));
+    QVERIFY2(comparison.score < 2.7, qPrintable(QString::number(comparison.score)));
+  }
+
   void mirroredTruth_isNotCalledChecked() {
     NearPlane plane;
     plane.mirror();

@@ -3,6 +3,7 @@
 #include "engine/io/models/order/line_matches.h"
 #include "engine/io/models/order/order_check.h"
 #include "tests/engine/io/models/order/layered_scene.h"
+#include "tests/engine/io/models/sidecar_maps/layered_folder.h"
 #include "tests/engine/io/synthetic_scene.h"
 #include "tests/test_main.h"
 
@@ -239,6 +240,94 @@ class SignCheckTest : public QObject {
     QVERIFY2(scene.convention.order.starts_with("rows and columns swapped"), told(scene).c_str());
     QVERIFY2(scene.convention.order_check.find("motion along x") != std::string::npos,
              told(scene).c_str());
+  }
+
+  void swappedAxesOfSmallViews_areSwappedBack_data() {
+    QTest::addColumn<int>("side");
+    QTest::addColumn<int>("height");
+    QTest::addColumn<double>("disparity");
+    QTest::newRow("few views") << 3 << 60 << 0.9;
+    QTest::newRow("few pixels") << 5 << 48 << 0.9;
+    QTest::newRow("many views and little motion") << 13 << 48 << 0.4;
+  }
+  /// A pair of views has few blocks to match.
+  void swappedAxesOfSmallViews_areSwappedBack() {
+    QFETCH(int, side);
+    QFETCH(int, height);
+    QFETCH(double, disparity);
+    const LayeredOptions options{.grid = {side, side},
+                                 .height = height,
+                                 .width = 4 * height / 3,
+                                 .background_px = -0.7 * disparity,
+                                 .foreground_px = disparity,
+                                 .discs = 6,
+                                 .noise = 3,
+                                 .seed = 2};
+    const ViewStack<std::uint8_t> views = layered_views(options);
+
+    const Scene scene = assembled(swapped(views));
+
+    QVERIFY2(has_views(scene, views), told(scene).c_str());
+    QVERIFY(!scene.convention.are_axes_unclear);
+  }
+
+  void swappedAxesOfTinyViews_areFoundByTruth() {
+    const LayeredScene stored({3, 3}, 36, 40);
+    io::SceneParts parts;
+    parts.samples = swapped(stored.views);
+    parts.truth.field.disparity = stored.disparity.clone();
+    parts.truth.labels = stored.labels.clone();
+    io::swap_view_axes(parts.truth);
+    parts.expected.reason = "the test says so";
+    Scene scene;
+
+    io::assemble(std::move(parts), {}, scene, Progress(2));
+
+    QVERIFY2(has_views(scene, stored.views), told(scene).c_str());
+    QVERIFY2(scene.convention.order_check.starts_with("by the truth"), told(scene).c_str());
+    const ViewStack<std::int32_t>& labels = scene.truth->labels;
+    QVERIFY(std::equal(labels.data(), labels.data() + labels.size(), stored.labels.data()));
+    QVERIFY(!scene.convention.are_axes_unclear);
+  }
+
+  /// Such views are the same with rows and columns exchanged, whatever their slopes say.
+  void diagonalStripes_doNotTellRowsFromColumns() {
+    const GridShape grid{5, 5};
+    ViewStack<std::uint8_t> stripes(grid, 96, 128);
+    for (int i = 0; i < grid.count(); ++i) {
+      const ViewIndex at = grid.view_at(i);
+      const auto view = stripes.view(at);
+      for (int y = 0; y < view.height; ++y) {
+        for (int x = 0; x < view.width; ++x) {
+          const double along = x + y;
+          const double moved = along + std::sin(along / 20) * (at.u + at.v - 4);
+          const double wave = std::sin(moved / 1.7) + std::sin(moved / 2.9);
+          view.at(y, x) = static_cast<std::uint8_t>(127 + 50 * wave);
+        }
+      }
+    }
+
+    const Scene scene = assembled(std::move(stripes));
+
+    QVERIFY2(scene.convention.are_axes_unclear, told(scene).c_str());
+    QVERIFY2(scene.convention.order_check.starts_with("not checked"), told(scene).c_str());
+  }
+
+  void reversedViews_areJudgedAlike() {
+    for (unsigned seed = 1; seed <= 8; ++seed) {
+      LayeredOptions options{.height = 72, .discs = 6, .noise = 6, .seed = seed};
+      options.width = 96;
+      const ViewStack<std::uint8_t> views = layered_views(options);
+      ViewStack<std::uint8_t> stored = views.clone();
+      io::reverse_views(stored, options.grid, {true, true});
+      const LightField::Samples plain = views.clone(), reversed = std::move(stored);
+
+      const io::SignFinding one = io::check_sign(plain, {}, true, Progress(1));
+      const io::SignFinding other = io::check_sign(reversed, {}, true, Progress(1));
+
+      QCOMPARE(one.is_decided, other.is_decided);
+      if (one.is_decided) QCOMPARE(one.evidence, other.evidence);
+    }
   }
 
   void swappedAxesOfAKnownForm_areReportedOnly() {
