@@ -162,11 +162,6 @@ bool is_float(NumberType type) {
   return type == NumberType::Float16 || type == NumberType::Float32 || type == NumberType::Float64;
 }
 
-bool is_signed(NumberType type) {
-  return type == NumberType::Int8 || type == NumberType::Int16 || type == NumberType::Int32 ||
-         type == NumberType::Int64;
-}
-
 const char* number_name(NumberType type) {
   constexpr const char* kNames[] = {"bool",   "int8",  "uint8",  "int16",   "uint16",  "int32",
                                     "uint32", "int64", "uint64", "float16", "float32", "float64"};

@@ -38,7 +38,6 @@ template <class T>
 [[nodiscard]] std::size_t byte_size(NumberType type);
 [[nodiscard]] bool is_float(NumberType type);
 /// Whether integers of the type have a sign.
-[[nodiscard]] bool is_signed(NumberType type);
 /// "uint8", "float16", …
 [[nodiscard]] const char* number_name(NumberType type);
 

@@ -164,30 +164,28 @@ ArraySamples read_as(const ArrayInput& array, const ArrayLayout& layout, const P
   return {std::move(stack), std::move(valid), std::move(left_out)};
 }
 
-template <class To, class From>
-ViewStack<To> converted(const ViewStack<From>& from) {
+template <class To>
+ViewStack<To> converted(const ViewStack<float>& from) {
   ViewStack<To> to(from.grid(), from.height(), from.width(), from.channels());
   std::transform(from.data(), from.data() + from.size(), to.data(),
-                 [](From sample) { return static_cast<To>(sample); });
+                 [](float sample) { return static_cast<To>(sample); });
   return to;
 }
 
-template <class T>
-bool lies_in(const ViewStack<T>& stack, T smallest, T largest) {
+bool lies_in(const ViewStack<float>& stack, float smallest, float largest) {
   return std::all_of(stack.data(), stack.data() + stack.size(),
-                     [=](T sample) { return smallest <= sample && sample <= largest; });
+                     [=](float sample) { return smallest <= sample && sample <= largest; });
 }
 
-/// Integers in the narrowest type that holds them; negative ones stay floats.
+/// Integers in the narrowest type that holds them; negative ones, and those above 65535, stay
+/// floats.
 void narrow(LightField::Samples& samples) {
-  constexpr int kMostOfBytes = std::numeric_limits<std::uint8_t>::max();
-  constexpr int kMostOfWords = std::numeric_limits<std::uint16_t>::max();
-  if (const auto* floats = std::get_if<ViewStack<float>>(&samples)) {
-    if (!lies_in<float>(*floats, 0, kMostOfWords)) return;
-    samples = converted<std::uint16_t>(*floats);
+  const auto& floats = std::get<ViewStack<float>>(samples);
+  if (lies_in(floats, 0, std::numeric_limits<std::uint8_t>::max())) {
+    samples = converted<std::uint8_t>(floats);
+  } else if (lies_in(floats, 0, std::numeric_limits<std::uint16_t>::max())) {
+    samples = converted<std::uint16_t>(floats);
   }
-  const auto& words = std::get<ViewStack<std::uint16_t>>(samples);
-  if (lies_in<std::uint16_t>(words, 0, kMostOfBytes)) samples = converted<std::uint8_t>(words);
 }
 
 }  // namespace
@@ -199,9 +197,10 @@ ArraySamples read_samples(const ArrayInput& array, const ArrayLayout& layout,
   if (byte_size(type) == 1 && type != NumberType::Int8) {
     return read_as<std::uint8_t>(array, layout, progress);
   }
-  ArraySamples read = is_signed(type) ? read_as<float>(array, layout, progress)
-                                      : read_as<std::uint16_t>(array, layout, progress);
-  if (type != NumberType::UInt16) narrow(read.samples);
+  const bool is_of_words = type == NumberType::UInt16;
+  ArraySamples read = is_of_words ? read_as<std::uint16_t>(array, layout, progress)
+                                  : read_as<float>(array, layout, progress);
+  if (!is_of_words) narrow(read.samples);
   return read;
 }
 

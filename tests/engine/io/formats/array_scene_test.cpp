@@ -213,6 +213,33 @@ class ArraySceneTest : public QObject {
     QVERIFY(open(path("words.npy")).light_field->sample_type() == SampleType::UInt16);
   }
 
+  void unsignedIntegersAbove65535_areScaledAsSignedOnes_data() {
+    QTest::addColumn<unsigned>("factor");
+    QTest::newRow("a little") << 400U;
+    QTest::newRow("the whole range") << 15'000'000U;
+  }
+  void unsignedIntegersAbove65535_areScaledAsSignedOnes() {
+    QFETCH(unsigned, factor);
+    std::vector<std::int32_t> words(views().size());
+    std::transform(views().data(), views().data() + views().size(), words.begin(),
+                   [&](std::uint8_t sample) { return static_cast<std::int32_t>(factor * sample); });
+    io::write_npy<std::int32_t>(path("wide.npy"), lengths_of(views(), "vuyxc"), words);
+    std::fstream file(path("wide.npy"), std::ios::in | std::ios::out | std::ios::binary);
+    std::string header(64, ' ');
+    file.read(header.data(), 64);
+    file.seekp(static_cast<std::streamoff>(header.find("<i4")));
+    file << "<u4";
+    file.close();
+
+    const Scene scene = open(path("wide.npy"));
+
+    QVERIFY(scene.light_field->sample_type() == SampleType::Float32);
+    QVERIFY(!scene.convention.warnings.empty());
+    const auto& floats = std::get<ViewStack<float>>(scene.light_field->samples());
+    const float ratio = floats.data()[1] / floats.data()[0];
+    QVERIFY(std::abs(ratio - 1.0F * views().data()[1] / views().data()[0]) < 1e-4F);
+  }
+
   void mapsBesideAnNpy_areTruth() {
     io::write_npy<std::uint8_t>(path("lf.npy"), lengths_of(views(), "vuyxc"),
                                 in_axes(views(), "vuyxc"));
