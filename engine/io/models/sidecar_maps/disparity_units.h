@@ -100,10 +100,10 @@ void scale_values(DisparityField& field, double factor);
                                       ConventionReport& report);
 
 /// Marks pixels as invalid, in all views, whose value stands for unknown: 0, −1, or the largest or
-/// smallest one (65535, 1e10, −999), if many pixels have exactly that, hardly any other is near,
-/// and the neighbors of view `at` contradict it but agree with the rest, by the values times
-/// `factor`. Warns of it. Linear in the pixels.
-void drop_unknown_values(const LightField::Samples& samples, ViewIndex at, double factor,
+/// smallest one if it is whole (65535, 1e10, −999), if many pixels have exactly that, and the
+/// nearest other values explain the neighbors of view `at` clearly better there, by the values
+/// times `factor`. Warns of it. Returns whether there are such values. Linear in the pixels.
+bool drop_unknown_values(const LightField::Samples& samples, ViewIndex at, double factor,
                          NamedValues values, ConventionReport& report);
 
 }  // namespace episcope::io
