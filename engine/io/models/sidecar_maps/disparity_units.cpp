@@ -3,6 +3,7 @@
 
 #include "engine/core/finding.h"
 #include "engine/core/numbers.h"
+#include "engine/io/models/order/motion_pictures.h"
 #include "engine/io/models/order/warp_check.h"
 
 #include <fmt/format.h>
@@ -10,8 +11,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
-#include <random>
 #include <utility>
 
 namespace episcope::io {
@@ -321,135 +322,22 @@ TruthSign find_truth_sign(const LightField::Samples& samples, const OcclusionOrd
 
 namespace {
 
-constexpr double kExact = 0.01;  ///< px
-constexpr int kTriedLines = 200;
-constexpr std::size_t kSome = 2000;  ///< Points by which a pair is judged.
-
-struct DepthPoint {
-  double inverse = 0;  ///< 1/Z
-  double disparity = 0;
-};
-
-struct DepthLine {
-  double a = 0;
-  double b = 0;
-  [[nodiscard]] double residual(const DepthPoint& p) const {
-    return std::abs(p.disparity - (a * p.inverse - b));
-  }
-};
-
-/// Through the points that `last` explains.
-DepthLine least_squares(const std::vector<DepthPoint>& points, const DepthLine& last) {
-  double n = 0, x = 0, y = 0, xx = 0, xy = 0;
-  for (const DepthPoint& p : points) {
-    if (last.residual(p) > kExact) continue;
-    n += 1;
-    x += p.inverse;
-    y += p.disparity;
-    xx += p.inverse * p.inverse;
-    xy += p.inverse * p.disparity;
-  }
-  const double spread = n * xx - x * x;
-  if (n < 2 || spread <= 1e-12 * n * xx) return last;
-  DepthLine line;
-  line.a = (n * xy - x * y) / spread;
-  line.b = (line.a * x - y) / n;
-  return line;
-}
-
-std::ptrdiff_t count_exact(const std::vector<DepthPoint>& points, const DepthLine& line) {
-  return std::ranges::count_if(points,
-                               [&](const DepthPoint& p) { return line.residual(p) < kExact; });
-}
-
-/// Of lines through pairs of points, the one that explains most points.
-DepthLine best_line(const std::vector<DepthPoint>& points) {
-  std::vector<DepthPoint> some;
-  const std::size_t stride = std::max<std::size_t>(1, points.size() / kSome);
-  for (std::size_t i = 0; i < points.size(); i += stride) some.push_back(points[i]);
-  std::mt19937 random(1);
-  DepthLine best;
-  std::ptrdiff_t most = 0;
-  for (int pair = 0; pair < kTriedLines; ++pair) {
-    const DepthPoint& p = some[random() % some.size()];
-    const DepthPoint& q = some[random() % some.size()];
-    const double run = p.inverse - q.inverse;
-    if (std::abs(run) < 1e-3 * std::max(p.inverse, q.inverse)) continue;
-    DepthLine line;
-    line.a = (p.disparity - q.disparity) / run;
-    line.b = line.a * p.inverse - p.disparity;
-    const std::ptrdiff_t exact = count_exact(some, line);
-    if (exact <= most) continue;
-    most = exact;
-    best = line;
-  }
-  return best;
-}
-
-}  // namespace
-
-CameraGrid DepthFit::camera() const {
-  CameraGrid camera;
-  camera.baseline = a;
-  camera.focal_length = 1;
-  camera.shift = b;
-  return camera;
-}
-
-DepthFit fit_depth(const DisparityView& disparity, double factor, const DisparityView& depth) {
-  std::vector<DepthPoint> points;
-  for (int y = 0; y < disparity.disparity.height; ++y) {
-    for (int x = 0; x < disparity.disparity.width; ++x) {
-      if (!disparity.is_valid(y, x) || !depth.is_valid(y, x)) continue;
-      const double z = depth.disparity.at(y, x);
-      if (z > 0) points.push_back({1 / z, factor * disparity.disparity.at(y, x)});
-    }
-  }
-  if (points.size() < 2) return {};
-  const DepthLine line = least_squares(points, best_line(points));
-  const std::ptrdiff_t exact = count_exact(points, line);
-  return {line.a, line.b, static_cast<double>(exact) / static_cast<double>(points.size()),
-          points.size()};
-}
-
-namespace {
-
 constexpr std::ptrdiff_t kFewestUnknown = 30;
-constexpr double kMostShare = 0.9;
-/// Values next to the unknown one, within this part of the farthest, are next to none: else it
-/// is one of them.
-constexpr double kGapAroundUnknown = 0.05;
-constexpr double kFewInGap = 0.1;  ///< Of the pixels with the unknown value.
-/// Values are contradicted if their error is so many times the error of the others.
+constexpr double kMostShare = 0.99;
+/// Above this multiple of the error of the other pixels, an error is not that of noise.
+constexpr double kAboveNoise = 1.3;
+/// The next known values must leave at most this share of the error of the value,
+constexpr double kClearlyBetterNext = 0.75;
+constexpr double kSignificantNext =
+    2.5;                        ///< by so many standard deviations of chance, over squares
+constexpr int kNextSquare = 8;  ///< of so many px;
+/// or this share if the error of the value is so many times the error of the others: around edges
+/// the next value is often the one of the wrong side.
+constexpr double kBetterNext = 0.95;
 constexpr double kContradicted = 2;
-/// Values other than 0 may belong to a surface that matches badly, but better than unwarped.
-constexpr double kAsUnwarped = 0.9;
-
-Image<std::uint8_t> pixels_of(const DisparityView& map, float value) {
-  const ImageView<const float>& values = map.disparity;
-  Image<std::uint8_t> pixels(values.height, values.width);
-  for (int y = 0; y < values.height; ++y) {
-    for (int x = 0; x < values.width; ++x) {
-      pixels.at(y, x) = map.is_valid(y, x) && values.at(y, x) == value ? 1 : 0;
-    }
-  }
-  return pixels;
-}
-
-/// Pixels of other values that are near it; nothing if there is no other value.
-std::optional<std::ptrdiff_t> pixels_near(const DisparityView& map, float value) {
-  std::vector<float> distances;
-  const ImageView<const float>& values = map.disparity;
-  for (int y = 0; y < values.height; ++y) {
-    for (int x = 0; x < values.width; ++x) {
-      if (!map.is_valid(y, x) || values.at(y, x) == value) continue;
-      distances.push_back(std::abs(values.at(y, x) - value));
-    }
-  }
-  if (distances.empty()) return std::nullopt;
-  const double gap = kGapAroundUnknown * *std::ranges::max_element(distances);
-  return std::ranges::count_if(distances, [=](float distance) { return distance < gap; });
-}
+constexpr double kBetterThanBeyond = 0.9;
+constexpr double kFewestDiffering = 0.1;  ///< px between the two: else neither is judged.
+constexpr float kLargestNextError = 40;   ///< Grey levels; what is hidden counts no more.
 
 void mark(DisparityField& field, float value) {
   field.require_mask();
@@ -459,19 +347,13 @@ void mark(DisparityField& field, float value) {
 }
 
 std::ptrdiff_t count_of(const DisparityView& map, float value) {
-  const Image<std::uint8_t> pixels = pixels_of(map, value);
-  return std::count(pixels.begin(), pixels.end(), std::uint8_t{1});
-}
-
-/// With the orders of views in which others fit better; infinite if nothing was compared.
-double error_as_of(const WarpErrors& errors, const WarpErrors& others) {
-  const auto pixels = static_cast<double>(errors.u.pixels + errors.v.pixels);
-  if (pixels == 0) return std::numeric_limits<double>::infinity();
-  const auto sum = [](const AxisErrors& axis, const AxisErrors& other) {
-    return (other.says_reversed() ? axis.reversed : axis.forward) *
-           static_cast<double>(axis.pixels);
-  };
-  return (sum(errors.u, others.u) + sum(errors.v, others.v)) / pixels;
+  std::ptrdiff_t count = 0;
+  for (int y = 0; y < map.disparity.height; ++y) {
+    for (int x = 0; x < map.disparity.width; ++x) {
+      count += map.is_valid(y, x) && map.disparity.at(y, x) == value ? 1 : 0;
+    }
+  }
+  return count;
 }
 
 /// 1 where the map is valid and has another value, `[y][x]`.
@@ -485,8 +367,8 @@ Image<std::uint8_t> valid_without(const DisparityView& map, float value) {
   return valid;
 }
 
-/// Values by which programs mark unknown pixels: 0, −1, and the largest and the smallest value
-/// (65535, 1e10, −999). Only values that many pixels have exactly.
+/// Whole numbers by which programs mark unknown pixels: 0, −1, and the largest and the smallest
+/// value (65535, 1e10, −999). Only values that many pixels have exactly.
 std::vector<float> possible_unknown_values(const DisparityView& map) {
   std::vector<float> values{0, -1};
   std::optional<float> smallest, largest;
@@ -499,7 +381,8 @@ std::vector<float> possible_unknown_values(const DisparityView& map) {
     }
   }
   for (const std::optional<float>& extreme : {largest, smallest}) {
-    if (extreme && *extreme != 0 && *extreme != -1) values.push_back(*extreme);
+    const bool is_other = extreme && *extreme != 0 && *extreme != -1;
+    if (is_other && *extreme == std::trunc(*extreme)) values.push_back(*extreme);
   }
   std::erase_if(values, [&](float value) { return count_of(map, value) < kFewestUnknown; });
   return values;
@@ -511,43 +394,177 @@ struct UnknownValue {
   double factor = 1;  ///< whose values times this are px.
 };
 
-/// Marks pixels of exactly this value as invalid, in all views, if hardly any other value is near
-/// it and the neighbors of view `at` contradict these pixels but agree with the rest. Values other
-/// than 0 must not agree better than without warping. Returns a warning, or nothing.
+/// The map with the nearest of the values that are `known` at all other pixels.
+Image<float> filled(const DisparityView& map, Image<std::uint8_t> known) {
+  Image<float> values(map.disparity.height, map.disparity.width);
+  std::vector<PixelIndex> front;
+  for (int y = 0; y < values.height(); ++y) {
+    for (int x = 0; x < values.width(); ++x) {
+      values.at(y, x) = map.disparity.at(y, x);
+      if (known.at(y, x) != 0) front.push_back({y, x});
+    }
+  }
+  for (std::size_t i = 0; i < front.size(); ++i) {
+    const PixelIndex from = front[i];
+    for (const PixelIndex step : {PixelIndex{0, 1}, {1, 0}, {0, -1}, {-1, 0}}) {
+      const PixelIndex to{from.y + step.y, from.x + step.x};
+      const bool is_inside =
+          to.y >= 0 && to.x >= 0 && to.y < values.height() && to.x < values.width();
+      if (!is_inside || known.at(to.y, to.x) != 0) continue;
+      known.at(to.y, to.x) = 1;
+      values.at(to.y, to.x) = values.at(from.y, from.x);
+      front.push_back(to);
+    }
+  }
+  return values;
+}
+
+/// The view and those next to it, smoothed, in the order that `explanation` found.
+class NextViews {
+ public:
+  NextViews(const LightField::Samples& samples, ViewIndex at, const Explanation& explanation)
+      : here_(smoothed(grey_levels(samples, at))) {
+    for (const bool is_along_x : {true, false}) {
+      const bool is_u = is_along_x != explanation.is_transposed;
+      const bool is_reversed = is_along_x ? explanation.reversed_u : explanation.reversed_v;
+      for (const int step : {-1, 1}) {
+        const ViewIndex next = is_u ? ViewIndex{at.v, at.u + step} : ViewIndex{at.v + step, at.u};
+        if (!grid_of(samples).contains(next)) continue;
+        next_.push_back(
+            {smoothed(grey_levels(samples, next)), is_along_x, is_reversed ? -step : step});
+      }
+    }
+  }
+
+  /// Mean grey error of a pixel with this disparity along both axes.
+  [[nodiscard]] float error(PixelIndex at, double disparity) const {
+    const auto along_x = error_along(true, at, disparity);
+    const auto along_y = error_along(false, at, disparity);
+    if (along_x && along_y) return (*along_x + *along_y) / 2;
+    return along_x.value_or(along_y.value_or(0));
+  }
+
+ private:
+  struct Next {
+    Image<float> grey;
+    bool is_along_x;
+    int step;
+
+    /// Infinite outside of the picture.
+    [[nodiscard]] float grey_at(PixelIndex at, double disparity) const {
+      const double place = (is_along_x ? at.x : at.y) - step * disparity;
+      const int last = (is_along_x ? grey.width() : grey.height()) - 1;
+      if (!(place >= 0 && place <= last)) return std::numeric_limits<float>::infinity();
+      const int i = std::min(static_cast<int>(place), last - 1);
+      const float first = is_along_x ? grey.at(at.y, i) : grey.at(i, at.x);
+      const float second = is_along_x ? grey.at(at.y, i + 1) : grey.at(i + 1, at.x);
+      return first + static_cast<float>(place - i) * (second - first);
+    }
+  };
+
+  /// By the view that shows the pixel better, as edges hide it in the other; none without views.
+  [[nodiscard]] std::optional<float> error_along(bool is_along_x, PixelIndex at,
+                                                 double disparity) const {
+    std::optional<float> least;
+    for (const Next& next : next_) {
+      if (next.is_along_x != is_along_x) continue;
+      const float error = std::abs(here_.at(at.y, at.x) - next.grey_at(at, disparity));
+      least = std::min(least.value_or(kLargestNextError), error);
+    }
+    return least;
+  }
+
+  Image<float> here_;
+  std::vector<Next> next_;
+};
+
+/// What the views say of pixels with one value.
+struct ValueErrors {
+  double stored = 0;  ///< Mean grey error with the value,
+  double next = 0;    ///< with the nearest other value,
+  double beyond = 0;  ///< with one as far to the other side, which averages noise as much,
+  double others = 0;  ///< and of the pixels with other values.
+  double score = 0;   ///< By how many standard deviations of chance `next` is better.
+
+  [[nodiscard]] bool is_contradicted() const {
+    if (next > kBetterThanBeyond * beyond) return false;
+    const bool is_clear = stored > kAboveNoise * others && next < kClearlyBetterNext * stored &&
+                          score > kSignificantNext;
+    return is_clear || (stored > kContradicted * others && next < kBetterNext * stored);
+  }
+};
+
+ValueErrors compare_with_next(const NextViews& views, const DisparityView& map,
+                              const UnknownValue& unknown, const Image<float>& next) {
+  ValueErrors errors;
+  std::map<std::pair<int, int>, double> squares;
+  double count = 0, count_of_others = 0;
+  for (int y = 0; y < next.height(); ++y) {
+    for (int x = 0; x < next.width(); ++x) {
+      if (!map.is_valid(y, x)) continue;
+      const double stored_px = unknown.factor * map.disparity.at(y, x);
+      const double next_px = unknown.factor * next.at(y, x);
+      const double stored = views.error({y, x}, stored_px);
+      if (map.disparity.at(y, x) != unknown.value) {
+        errors.others += stored;
+        count_of_others += 1;
+      } else if (std::abs(stored_px - next_px) >= kFewestDiffering) {
+        const double other = views.error({y, x}, next_px);
+        errors.stored += stored;
+        errors.next += other;
+        errors.beyond += views.error({y, x}, 2 * stored_px - next_px);
+        count += 1;
+        squares[{y / kNextSquare, x / kNextSquare}] += stored - other;
+      }
+    }
+  }
+  if (count < kFewestUnknown) return {};
+  double sum_of_squares = 0;
+  for (const auto& [place, gain] : squares) sum_of_squares += gain * gain;
+  errors.score = (errors.stored - errors.next) / std::sqrt(std::max(sum_of_squares, 1e-9));
+  errors.stored /= count;
+  errors.next /= count;
+  errors.beyond /= count;
+  errors.others /= count_of_others;
+  return errors;
+}
+
+/// Marks pixels of exactly this value as invalid, in all views, if the nearest other values explain
+/// the neighbors of view `at` clearly better there than the value does. Returns a warning, or
+/// nothing.
 std::string drop_unknown_value(const LightField::Samples& samples, ViewIndex at,
                                const UnknownValue& unknown, NamedValues values) {
   DisparityField& field = values.field;
   const DisparityView map = field.view(at);
-  const Image<std::uint8_t> pixels = pixels_of(map, unknown.value);
-  const auto count = std::count(pixels.begin(), pixels.end(), std::uint8_t{1});
-  const auto all = static_cast<double>(pixels.size());
-  if (count < kFewestUnknown || static_cast<double>(count) > kMostShare * all) return {};
-  const auto near = pixels_near(map, unknown.value);
-  if (!near || static_cast<double>(*near) >= kFewInGap * static_cast<double>(count)) return {};
-  const Image<std::uint8_t> others = valid_without(map, unknown.value);
-  const ScaledMap disparity = scaled(map, unknown.factor);
-  const WarpErrors there = warp_errors(samples, at, {disparity.disparity.view(), pixels.view()});
-  const WarpErrors elsewhere =
-      warp_errors(samples, at, {disparity.disparity.view(), others.view()});
-  const double error = error_as_of(there, elsewhere);
-  const bool helps = unknown.value != 0 && error < kAsUnwarped * there.unwarped();
-  if (!(error > kContradicted * elsewhere.best()) || helps) return {};
+  const auto count = static_cast<double>(count_of(map, unknown.value));
+  const auto all = static_cast<double>(map.disparity.size());
+  if (count > kMostShare * all) return {};
+  Image<std::uint8_t> others = valid_without(map, unknown.value);
+  const Explanation known =
+      explain_views(samples, at, {map.disparity, others.view()}, unknown.factor);
+  const NextViews views(samples, at, known);
+  const ValueErrors errors = compare_with_next(views, map, unknown, filled(map, std::move(others)));
+  if (!errors.is_contradicted()) return {};
   mark(field, unknown.value);
-  return fmt::format(finding_text("map.unknown_value"), values.name, unknown.value,
-                     100 * static_cast<double>(count) / all,
-                     std::isfinite(error)
-                         ? fmt::format(finding_text("map.error_there"), error, elsewhere.best())
-                         : std::string(finding_text("map.leads_out")));
+  const bool leads_out = errors.stored >= kLargestNextError;
+  return fmt::format(
+      finding_text("map.unknown_value"), values.name, unknown.value, 100 * count / all,
+      leads_out ? std::string(finding_text("map.leads_out"))
+                : fmt::format(finding_text("map.error_there"), errors.stored, errors.others));
 }
 
 }  // namespace
 
-void drop_unknown_values(const LightField::Samples& samples, ViewIndex at, double factor,
+bool drop_unknown_values(const LightField::Samples& samples, ViewIndex at, double factor,
                          NamedValues values, ConventionReport& report) {
+  bool has_dropped = false;
   for (const float value : possible_unknown_values(values.field.view(at))) {
     const std::string text = drop_unknown_value(samples, at, {value, factor}, values);
-    if (!text.empty()) report.warnings.push_back(text);
+    if (text.empty()) continue;
+    report.warnings.push_back(text);
+    has_dropped = true;
   }
+  return has_dropped;
 }
 
 namespace {
@@ -596,7 +613,9 @@ SettledUnit infer_units(const LightField::Samples& samples, const std::vector<Ma
   const ViewIndex at = told_view(values.field, grid_of(samples));
   put_upright(samples, units, at, values.field, report);
   SettledUnit settled = settle_unit(samples, at, values.field.view(at), units);
-  drop_unknown_values(samples, at, settled.unit.factor, values, report);
+  if (drop_unknown_values(samples, at, settled.unit.factor, values, report)) {
+    settled = settle_unit(samples, at, values.field.view(at), units);
+  }
   const std::string doubt = doubt_of_unit(samples, at, values, settled.unit);
   if (!doubt.empty()) report.warnings.push_back(doubt);
   return settled;

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/camera_grid.h"
 #include "engine/core/disparity_field.h"
 #include "engine/core/light_field.h"
 #include "engine/core/scene.h"
 #include "engine/io/models/order/order_check.h"
 
-#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -85,26 +83,6 @@ struct TruthSign {
 [[nodiscard]] TruthSign find_truth_sign(const LightField::Samples& samples,
                                         const OcclusionOrder& side, const Explanation& explanation);
 
-/// Camera that turns a depth map into a disparity map: d = a/Z − b.
-struct DepthFit {
-  double a = 0;            ///< B·f: px · unit of depth. Negative if disparity grows with depth.
-  double b = 0;            ///< Δx: px.
-  double exact_share = 0;  ///< Of the pixels, that agree within 0.01 px.
-  std::size_t pixels = 0;
-
-  /// Whether the two maps state the same geometry. Far depth may be cut off (a sky), so not all
-  /// pixels need to agree.
-  [[nodiscard]] bool is_exact() const { return pixels >= 100 && exact_share > 0.9 && a != 0; }
-  /// Camera with B = a and f = 1. Precondition: `a` > 0.
-  [[nodiscard]] CameraGrid camera() const;
-};
-
-/// Fits the camera by least squares over pixels that are valid in both maps and agree with the best
-/// line through a pair of them (RANSAC, seeded). `factor` is applied to the disparity.
-/// Precondition: maps of one size.
-[[nodiscard]] DepthFit fit_depth(const DisparityView& disparity, double factor,
-                                 const DisparityView& depth);
-
 /// Stored disparity values, called `name` in the report.
 struct NamedValues {
   DisparityField& field;
@@ -122,10 +100,10 @@ void scale_values(DisparityField& field, double factor);
                                       ConventionReport& report);
 
 /// Marks pixels as invalid, in all views, whose value stands for unknown: 0, −1, or the largest or
-/// smallest one (65535, 1e10, −999), if many pixels have exactly that, hardly any other is near,
-/// and the neighbors of view `at` contradict it but agree with the rest, by the values times
-/// `factor`. Warns of it. Linear in the pixels.
-void drop_unknown_values(const LightField::Samples& samples, ViewIndex at, double factor,
+/// smallest one if it is whole (65535, 1e10, −999), if many pixels have exactly that, and the
+/// nearest other values explain the neighbors of view `at` clearly better there, by the values
+/// times `factor`. Warns of it. Returns whether there are such values. Linear in the pixels.
+bool drop_unknown_values(const LightField::Samples& samples, ViewIndex at, double factor,
                          NamedValues values, ConventionReport& report);
 
 }  // namespace episcope::io

@@ -6,6 +6,7 @@
 #include "engine/core/text_table.h"
 #include "engine/io/base/files.h"
 #include "engine/io/models/array_maps.h"
+#include "engine/io/models/sidecar_maps/depth_fit.h"
 #include "engine/io/models/sidecar_maps/map_file.h"
 #include "engine/io/models/sidecar_maps/sidecar_labels.h"
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/models/sidecar_maps/depth_fit.h"
 #include "engine/io/models/sidecar_maps/disparity_units.h"
 #include "tests/engine/io/models/sidecar_maps/layered_folder.h"
 #include "tests/test_main.h"

@@ -25,10 +25,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A slanted plane with a square before it, which hides other parts of it in each view.
-Scene plane_behind_square() {
+/// A plane with a square before it, which hides other parts of it in each view.
+Scene plane_behind_square(const PlaneOptions& options = {}) {
   constexpr float kNear = 1.8F;
-  const Scene plane = plane_scene();
+  const Scene plane = plane_scene(options);
   ViewStack<std::uint8_t> views = bytes_of(plane).clone();
   auto truth = std::make_shared<GroundTruth>();
   truth->field.disparity = plane.truth->field.disparity.clone();
@@ -285,6 +285,57 @@ class UnknownUnitTest : public QObject {
     QCOMPARE(error(scene), 0.0);
     QVERIFY(!scene.truth->field.view({2, 2}).is_valid(30, 40));
     QVERIFY2(warns_of(scene, "which the views contradict"), describe(scene.convention).c_str());
+  }
+
+  void zerosAmongValuesOfBothSigns_areNotKnown_data() {
+    QTest::addColumn<QString>("where");
+    QTest::newRow("around the square") << "edges";
+    QTest::newRow("in a block") << "block";
+    QTest::newRow("at most pixels") << "scattered";
+  }
+  void zerosAmongValuesOfBothSigns_areNotKnown() {
+    QFETCH(QString, where);
+    write_views();
+    Image<float> map(disparity().height, disparity().width);
+    std::copy_n(disparity().data, disparity().size(), map.data());
+    std::mt19937 random(1);
+    for (int y = 0; y < map.height(); ++y) {
+      for (int x = 0; x < map.width(); ++x) {
+        const int outside = std::max({20 - x, x - 50, 16 - y, y - 46});
+        const bool is_zero = where == "edges"   ? std::abs(outside) < 3
+                             : where == "block" ? x > 56 && y > 10 && y < 40
+                                                : random() % 10 < 7;
+        if (is_zero) map.at(y, x) = 0;
+      }
+    }
+    write_array("disparity.npy", map.view());
+
+    const Scene scene = open();
+
+    QVERIFY2(warns_of(scene, "which the views contradict"), describe(scene.convention).c_str());
+    QVERIFY2(error(scene) < 1e-6, describe(scene.convention).c_str());
+    QVERIFY2(has_same_samples(scene, scene_), scene.convention.order.c_str());
+  }
+
+  void surfaceOfOneValue_staysKnown_data() {
+    QTest::addColumn<double>("value");
+    QTest::newRow("0") << 0.0;
+    QTest::newRow("-1") << -1.0;
+  }
+  void surfaceOfOneValue_staysKnown() {
+    QFETCH(double, value);
+    PlaneOptions options;
+    options.d0 = value;
+    options.slope_x = options.slope_y = 0;
+    scene_ = plane_behind_square(options);
+    write_views();
+    write_array("disparity.npy", disparity());
+
+    const Scene scene = open();
+
+    QVERIFY2(!warns_of(scene, "which the views contradict"), describe(scene.convention).c_str());
+    QVERIFY(scene.truth->field.view({2, 2}).is_valid(5, 5));
+    QVERIFY2(error(scene) < 1e-6, describe(scene.convention).c_str());
   }
 
   void valueOfUnknownDisparity_isLeftOut_data() {
