@@ -331,10 +331,11 @@ constexpr double kClearlyBetterNext = 0.75;
 constexpr double kSignificantNext =
     2.5;                        ///< by so many standard deviations of chance, over squares
 constexpr int kNextSquare = 8;  ///< of so many px;
-/// or this share if the error of the value is so many times the error of the others: around edges
-/// the next value is often the one of the wrong side.
-constexpr double kBetterNext = 0.95;
-constexpr double kContradicted = 2;
+/// or this one if the error of the value is so many times the error of the others: around edges the
+/// next value is often the one of the wrong side.
+constexpr double kHardlyWorseNext = 1.2;
+constexpr double kContradicted = 2.5;
+/// In both cases they must leave this share of the error of a value as far to the other side.
 constexpr double kBetterThanBeyond = 0.9;
 constexpr double kFewestDiffering = 0.1;  ///< px between the two: else neither is judged.
 constexpr float kLargestNextError = 40;   ///< Grey levels; what is hidden counts no more.
@@ -490,7 +491,7 @@ struct ValueErrors {
     if (next > kBetterThanBeyond * beyond) return false;
     const bool is_clear = stored > kAboveNoise * others && next < kClearlyBetterNext * stored &&
                           score > kSignificantNext;
-    return is_clear || (stored > kContradicted * others && next < kBetterNext * stored);
+    return is_clear || (stored > kContradicted * others && next < kHardlyWorseNext * stored);
   }
 };
 
