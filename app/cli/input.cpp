@@ -204,9 +204,10 @@ std::vector<io::CollectionEntry> entries_at(const std::string& input, const Read
 
 /// How many frames an INPUT has; 0 if it is no sequence.
 int frames_of(const std::string& input, const io::OpenOptions& options) {
-  if (reader_of(input, options) != io::kSequenceReader) return 0;
+  if (!builtin_scene_id(input).empty()) return 0;
   const io::FoundReader found = io::find_reader(input, options);
-  return found.reader ? found.reader->probe(found.path, options).frames : 0;
+  const bool is_sequence = found.reader && std::string(found.reader->id) == io::kSequenceReader;
+  return is_sequence ? found.reader->probe(found.path, options).frames : 0;
 }
 
 /// An INPUT that stands for itself.

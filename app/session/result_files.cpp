@@ -480,10 +480,6 @@ std::uint64_t stated_hash(const fs::path& result) {
   return hash_from_digits(io::Hdf5Input(result).text(io::kResultGroup, "source_hash").value_or(""));
 }
 
-}  // namespace
-
-namespace {
-
 /// Whether a folder is a light field; one plain picture alone need not be.
 bool is_light_field(const fs::path& folder) {
   const io::FoundReader found = io::find_reader(folder, {});

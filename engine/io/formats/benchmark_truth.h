@@ -3,7 +3,7 @@
 
 #include "engine/core/progress.h"
 #include "engine/core/scene.h"
-#include "engine/io/models/sidecar_maps/find_maps.h"
+#include "engine/io/models/sidecar_maps/map_sets.h"
 
 #include <filesystem>
 #include <string>

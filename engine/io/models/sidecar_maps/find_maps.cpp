@@ -1,27 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/models/sidecar_maps/find_maps.h"
 
-#include "engine/core/error.h"
-#include "engine/core/finding.h"
-#include "engine/core/parallel.h"
 #include "engine/core/text.h"
 #include "engine/io/base/exchange_files.h"
 #include "engine/io/base/files.h"
-#include "engine/io/models/external_result.h"
-#include "engine/io/models/map_padding.h"
 #include "engine/io/models/names/view_folders.h"
-#include "engine/io/models/order/order_check.h"
-
-#include <fmt/format.h>
+#include "engine/io/models/sidecar_maps/map_file.h"
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <map>
 #include <optional>
 #include <set>
 #include <string_view>
-#include <tuple>
 #include <utility>
 
 namespace episcope::io {
@@ -208,18 +199,23 @@ std::string telling_part(const std::string& name) {
   return tells ? std::string(begin, name.end()) : name;
 }
 
+/// Where a name holds a part with no digits beside it; npos if it does not.
+std::size_t place_of(const std::string& part, const std::string& name) {
+  const auto is_inside = [&](std::size_t i) { return i < name.size() && is_digit(name[i]); };
+  for (std::size_t at = name.find(part); at != std::string::npos; at = name.find(part, at + 1)) {
+    if (!is_inside(at + part.size()) && (at == 0 || !is_inside(at - 1))) return at;
+  }
+  return std::string::npos;
+}
+
 /// The view whose name, or whose telling part, the name of the map holds: 5_5 in "5_5_depth" and
 /// "depth_5_5".
 std::optional<int> view_in_name(const std::string& stem, const ViewKeys& views) {
   std::optional<int> found;
   for (const auto& [whole, view] : views.view_by_stem) {
-    const std::string name = telling_part(whole);
-    for (std::size_t at = stem.find(name); at != std::string::npos; at = stem.find(name, at + 1)) {
-      const auto is_inside = [&](std::size_t i) { return i < stem.size() && is_digit(stem[i]); };
-      if (is_inside(at + name.size()) || (at > 0 && is_inside(at - 1))) continue;
-      if (found && *found != view) return std::nullopt;
-      found = view;
-    }
+    if (place_of(telling_part(whole), stem) == std::string::npos) continue;
+    if (found && *found != view) return std::nullopt;
+    found = view;
   }
   return found;
 }
@@ -337,28 +333,24 @@ std::string role_of(const fs::path& file, const fs::path& view, bool is_alone) {
   std::string name = file.filename().string();
   if (is_alone) return name;
   const std::string stem = view.stem().string();
-  const std::size_t at = name.find(stem);
-  const auto is_inside = [&](std::size_t i) { return i < name.size() && is_digit(name[i]); };
-  const bool is_other =
-      at == std::string::npos || is_inside(at + stem.size()) || (at > 0 && is_inside(at - 1));
-  return is_other ? std::string() : name.replace(at, stem.size(), "*");
+  const std::size_t at = place_of(stem, name);
+  return at == std::string::npos ? std::string() : name.replace(at, stem.size(), "*");
 }
 
 /// Maps of views that lie in folders inside `folder`, as rows or one folder a view: with their
 /// views, or in folders of the same names inside a folder of maps.
 class MapsOfFolders {
  public:
-  MapsOfFolders(const ViewFiles& views, const fs::path& folder, FoundMapSets& found)
-      : folder_(folder), found_(found) {
-    taken_.insert(views.files.begin(), views.files.end());
-    taken_.insert(views.left_out.begin(), views.left_out.end());
+  MapsOfFolders(const ViewFiles& views, const fs::path& folder, const std::set<fs::path>& taken,
+                FoundMapSets& found)
+      : folder_(folder), taken_(taken), found_(found) {
     for (std::size_t i = 0; i < views.files.size(); ++i) add(views.files[i], static_cast<int>(i));
     for (const fs::path& view : views.left_out) add(view, kLeftOut);
   }
 
-  void find() {
+  void find(const std::vector<MapPlace>& places) {
     if (views_.contains(folder_)) return;
-    for (const MapPlace& place : map_places(folder_)) {
+    for (const MapPlace& place : places) {
       for (const auto& [inside, views] : views_) {
         look_into(place, inside.lexically_relative(folder_), views);
       }
@@ -397,8 +389,8 @@ class MapsOfFolders {
   }
 
   const fs::path& folder_;
+  const std::set<fs::path>& taken_;
   FoundMapSets& found_;
-  std::set<fs::path> taken_;
   std::map<fs::path, std::vector<View>> views_;  ///< Of each folder.
   std::map<std::pair<MapKind, std::string>, MapSet> sets_;
 };
@@ -421,8 +413,9 @@ FoundMapSets find_maps(const ViewFiles& views, const fs::path& folder, const IsO
   taken.insert(views.left_out.begin(), views.left_out.end());
   const ViewKeys keys = keys_of_views(views);
   FoundMapSets found;
-  MapsOfFolders(views, folder, found).find();
-  for (const MapPlace& place : map_places(folder)) {
+  const std::vector<MapPlace> places = map_places(folder);
+  MapsOfFolders(views, folder, taken, found).find(places);
+  for (const MapPlace& place : places) {
     std::map<std::pair<MapKind, std::string>, std::vector<fs::path>> groups;
     for (const fs::path& file : list_files(place.folder)) {
       if (taken.contains(file) || (is_own && !is_own(file))) continue;
@@ -441,275 +434,6 @@ FoundMapSets find_maps(const ViewFiles& views, const fs::path& folder, const IsO
     if (is_other && !groups.empty()) found.folders.push_back(place.folder);
   }
   return found;
-}
-
-namespace {
-
-/// Sets are not mixed with regard to suffixes: these are part of their pattern.
-fs::path first_file(const MapSet& set) {
-  if (!set.entries.empty()) return set.entries.front().file;
-  return set.strays.empty() ? set.of_left_out.front() : set.strays.front();
-}
-
-}  // namespace
-
-int SidecarViews::height() const {
-  return std::visit([](const auto& stack) { return stack.height(); }, samples);
-}
-
-int SidecarViews::width() const {
-  return std::visit([](const auto& stack) { return stack.width(); }, samples);
-}
-
-void SetOutcome::tell(const std::string& kind, const SidecarNotes& notes) const {
-  notes.account.use(read, kind);
-  if (!note.empty() && !read.empty()) notes.report.warnings.push_back(note);
-  if (failed.empty()) return;
-  notes.account.leave_out(failed, kind + " that are damaged or do not fit");
-  notes.report.warnings.push_back(fmt::format(finding_text("map.damaged"), failed.size(),
-                                              read.size() + failed.size(), kind, first_error));
-}
-
-namespace {
-
-bool is_on_its_side(int height, int width, const SidecarViews& views) {
-  return height != width && height == views.width() && width == views.height();
-}
-
-}  // namespace
-
-void require_view_size(const fs::path& path, int height, int width, const SidecarViews& views) {
-  if (height == views.height() && width == views.width()) return;
-  const char* remedy = "";
-  if (is_on_its_side(height, width, views)) {
-    remedy = "rows and columns are exchanged: transpose, ";
-  } else if (height >= views.height() && width >= views.width()) {
-    remedy =
-        "if it is padded, cut it by episcope-cli convert --map-crop corner --truth LIGHT_FIELD, "
-        "else ";
-  }
-  throw IoError(path, fmt::format("this map has {}×{} px, but the views have {}×{} px; {}remove or "
-                                  "replace it",
-                                  width, height, views.width(), views.height(), remedy));
-}
-
-std::vector<MapSet::Entry> entries_to_read(const MapSet& set, const SidecarViews& views) {
-  if (views.map_views == MapViews::All || set.entries.size() < 2) return set.entries;
-  const auto center = std::ranges::find(set.entries, views.center(), &MapSet::Entry::view);
-  return {center == set.entries.end() ? set.entries.front() : *center};
-}
-
-RankedSets rank_sets(const std::vector<MapSet>& sets, MapKind kind,
-                     bool (*can_hold)(const fs::path&)) {
-  RankedSets ranked;
-  for (const MapSet& set : sets) {
-    if (set.kind != kind) continue;
-    const bool is_fit = !set.entries.empty() && can_hold(first_file(set));
-    (is_fit ? ranked.fit : ranked.unfit).push_back(&set);
-  }
-  std::ranges::stable_sort(ranked.fit, [](const MapSet* a, const MapSet* b) {
-    const auto rank = [](const MapSet* set) {
-      const fs::path file = first_file(*set);
-      return std::tuple(-static_cast<int>(set->entries.size()), is_image_name(file),
-                        has_text_suffix(file));
-    };
-    return rank(a) < rank(b);
-  });
-  return ranked;
-}
-
-namespace {
-
-/// Where the maps of a set go: views of the whole grid, or the only one.
-struct SetPlace {
-  GridShape grid;
-  ViewIndex first;
-};
-
-SetPlace place_of(const std::vector<MapSet::Entry>& entries, GridShape grid) {
-  if (entries.size() != 1) return {grid, {}};
-  return {{1, 1}, grid.view_at(entries.front().view)};
-}
-
-/// Runs `read(entry)` for all, and notes which of them threw an IoError.
-template <class Read>
-SetOutcome try_all(const std::vector<MapSet::Entry>& entries, const Progress& progress,
-                   const Read& read) {
-  std::vector<std::string> errors(entries.size());
-  parallel_for(static_cast<int>(entries.size()), progress, [&](int i) {
-    const auto place = static_cast<std::size_t>(i);
-    try {
-      read(entries[place]);
-    } catch (const IoError& error) {
-      errors[place] = error.what();
-    }
-  });
-  SetOutcome outcome;
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    (errors[i].empty() ? outcome.read : outcome.failed).push_back(entries[i].file);
-    if (outcome.first_error.empty()) outcome.first_error = errors[i];
-  }
-  return outcome;
-}
-
-/// Files that are not read because the center view suffices count as read.
-void add_unread(const MapSet& set, std::size_t tried, SetOutcome& outcome) {
-  if (tried == set.entries.size() || outcome.read.empty()) return;
-  outcome.read = set.files();
-}
-
-template <class T>
-void require_one_map(const std::filesystem::path& file, const ViewStack<T>& stack,
-                     const SidecarViews& views) {
-  require_view_size(file, stack.height(), stack.width(), views);
-  if (stack.grid() == GridShape{1, 1}) return;
-  throw IoError(file, "this file holds maps of several views, but its name is that of one view");
-}
-
-/// Brings maps of several times, or a part of, the size of the views to that size; else exchanges
-/// rows and columns, cuts off a padding, or puts maps that lack a border into the middle, where
-/// that is evident.
-ResampledMaps fit_into_views(DisparityField& maps, const SidecarViews& views) {
-  if (is_on_its_side(maps.disparity.height(), maps.disparity.width(), views)) {
-    maps = turned_back(maps, {.is_transposed = true});
-    return {1, fmt::format(finding_text("map.exchanged"), "The maps", views.height(), views.width(),
-                           views.width(), views.height())};
-  }
-  ResampledMaps resampled = resample_to(maps, views.height(), views.width());
-  if (resampled.scale != 1) return resampled;
-  const ViewStack<float>& map = maps.disparity;
-  if (map.height() < views.height() && map.width() < views.width()) {
-    return {1, find_bare_border(maps, views.height(), views.width()).note};
-  }
-  return {1, remove_padding(maps, views.height(), views.width())};
-}
-
-bool holds_all_views(GridShape stored, const SidecarViews& views) {
-  return stored == views.files.whole_grid() && stored.count() > 1;
-}
-
-/// The maps of the views that are opened, where others are missing.
-template <class T>
-ViewStack<T> opened_part(ViewStack<T> all, const SidecarViews& views) {
-  if (!views.files.part) return all;
-  ViewStack<T> part(views.grid(), all.height(), all.width(), 1);
-  for (int i = 0; i < views.grid().count(); ++i) {
-    const ViewIndex view = views.grid().view_at(i);
-    std::copy_n(all.view(views.files.in_whole(view)).data, all.view_size(), part.view(view).data);
-  }
-  return part;
-}
-
-/// Takes the wanted maps of the whole grid; only the map of the center view if no others are
-/// wanted.
-template <class T>
-ViewStack<T> wanted_part(ViewStack<T> whole, const SidecarViews& views) {
-  ViewStack<T> all = opened_part(std::move(whole), views);
-  if (views.map_views == MapViews::All) return all;
-  const ViewIndex center = views.grid().center();
-  ViewStack<T> one({1, 1}, all.height(), all.width(), 1, center);
-  std::copy_n(all.view(center).data, all.view_size(), one.data());
-  return one;
-}
-
-/// A file that holds maps of all views; empty if it holds another number.
-std::optional<DisparityField> read_whole(const MapSet& set, const SidecarViews& views,
-                                         ResampledMaps& fitted) {
-  DisparityField all = read_values(set.entries.front().file, views.files.whole_grid());
-  fitted = fit_into_views(all, views);
-  require_view_size(set.entries.front().file, all.disparity.height(), all.disparity.width(), views);
-  if (!holds_all_views(all.disparity.grid(), views)) return std::nullopt;
-  DisparityField field{wanted_part(std::move(all.disparity), views), {}};
-  if (!all.valid.empty()) field.valid = wanted_part(std::move(all.valid), views);
-  return field;
-}
-
-}  // namespace
-
-void tidy_valid(DisparityField& field) {
-  mark_invalid(field);
-  const ViewStack<std::uint8_t>& valid = field.valid;
-  if (valid.empty()) return;
-  const bool is_whole = std::all_of(valid.data(), valid.data() + valid.size(),
-                                    [](std::uint8_t value) { return value != 0; });
-  if (is_whole) field.valid = {};
-}
-
-DisparityField read_value_set(const MapSet& set, const SidecarViews& views, SetOutcome& outcome,
-                              const Progress& progress) {
-  const std::vector<MapSet::Entry> entries = entries_to_read(set, views);
-  DisparityField field;
-  if (set.entries.size() == 1) {
-    ResampledMaps fitted;
-    outcome = try_all(entries, Progress(1), [&](const MapSet::Entry&) {
-      if (auto all = read_whole(set, views, fitted)) field = std::move(*all);
-    });
-    outcome.take(fitted);
-    if (!field.empty() || outcome.read.empty()) {
-      tidy_valid(field);
-      return field;
-    }
-  }
-  const SetPlace place = place_of(entries, views.grid());
-  field = DisparityField::unknown(place.grid, views.height(), views.width(), place.first);
-  std::vector<ResampledMaps> fitted(entries.size());
-  outcome = try_all(entries, progress, [&](const MapSet::Entry& entry) {
-    DisparityField one = read_values(entry.file, views.grid());
-    fitted[static_cast<std::size_t>(&entry - entries.data())] = fit_into_views(one, views);
-    require_one_map(entry.file, one.disparity, views);
-    const ViewIndex view = views.grid().view_at(entry.view);
-    std::copy_n(one.disparity.data(), one.disparity.size(), field.disparity.view(view).data);
-    std::uint8_t* valid = field.valid.view(view).data;
-    if (one.valid.empty()) {
-      std::fill_n(valid, field.valid.view_size(), std::uint8_t{1});
-    } else {
-      std::copy_n(one.valid.data(), one.valid.size(), valid);
-    }
-  });
-  outcome.take(fitted.front());
-  add_unread(set, entries.size(), outcome);
-  if (outcome.read.empty()) return {};
-  tidy_valid(field);
-  return field;
-}
-
-LabelMaps read_label_set(const MapSet& set, const SidecarViews& views, SetOutcome& outcome,
-                         const Progress& progress) {
-  const std::vector<MapSet::Entry> entries = entries_to_read(set, views);
-  LabelMaps maps;
-  if (set.entries.size() == 1) {
-    outcome = try_all(entries, Progress(1), [&](const MapSet::Entry& entry) {
-      StoredLabels all = read_stored_labels(entry.file, views.files.whole_grid());
-      require_view_size(entry.file, all.numbers.height(), all.numbers.width(), views);
-      if (!holds_all_views(all.numbers.grid(), views)) return;
-      maps = {wanted_part(std::move(all.numbers), views), all.are_colors};
-    });
-    if (!maps.numbers.empty() || outcome.read.empty()) return maps;
-  }
-  const SetPlace place = place_of(entries, views.grid());
-  maps.numbers = ViewStack<std::int32_t>(place.grid, views.height(), views.width(), 1, place.first);
-  std::fill_n(maps.numbers.data(), maps.numbers.size(), kNoMap);
-  std::atomic<bool> has_colors = false;
-  std::vector<std::uint8_t> are_levels(static_cast<std::size_t>(views.grid().count()), 0);
-  outcome = try_all(entries, progress, [&](const MapSet::Entry& entry) {
-    const StoredLabels one = read_stored_labels(entry.file, views.grid());
-    require_one_map(entry.file, one.numbers, views);
-    std::copy_n(one.numbers.data(), one.numbers.size(),
-                maps.numbers.view(views.grid().view_at(entry.view)).data);
-    if (one.are_colors) has_colors = true;
-    if (!one.are_colors) are_levels[static_cast<std::size_t>(entry.view)] = 1;
-  });
-  add_unread(set, entries.size(), outcome);
-  if (outcome.read.empty()) return {};
-  maps.are_colors = has_colors;
-  // Among pictures in colors, one that happens to be grey has levels of grey for colors.
-  for (const MapSet::Entry& entry : entries) {
-    if (!maps.are_colors || are_levels[static_cast<std::size_t>(entry.view)] == 0) continue;
-    std::int32_t* numbers = maps.numbers.view(views.grid().view_at(entry.view)).data;
-    std::for_each(numbers, numbers + maps.numbers.view_size(),
-                  [](std::int32_t& number) { number *= 0x010101; });
-  }
-  return maps;
 }
 
 }  // namespace episcope::io

@@ -4,7 +4,7 @@
 #include "engine/core/progress.h"
 #include "engine/core/scene.h"
 #include "engine/core/view_stack.h"
-#include "engine/io/models/sidecar_maps/find_maps.h"
+#include "engine/io/models/sidecar_maps/map_sets.h"
 
 #include <cstdint>
 #include <optional>

@@ -4,7 +4,7 @@
 #include "engine/core/progress.h"
 #include "engine/io/models/assemble_scene.h"
 #include "engine/io/models/sidecar_maps/disparity_units.h"
-#include "engine/io/models/sidecar_maps/find_maps.h"
+#include "engine/io/models/sidecar_maps/map_sets.h"
 
 #include <filesystem>
 #include <optional>
