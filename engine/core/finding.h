@@ -310,6 +310,10 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
      "{} with {}×{} px lie on their side beside views of {}×{} px: rows and columns were "
      "exchanged.",
      "%1 were turned."},
+    {"map.mask_turned",
+     "The disparity holds values only where its mask is 0: the mask is taken for one of missing "
+     "values, as NumPy writes them.",
+     "The mask marks missing values."},
     {"map.border",
      "A border of {} px has one value only and counts as padding; {}×{} px are used."},
     {"map.middle",

@@ -3339,6 +3339,14 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <source>decoded from %1: %2 lenses of %3 px, turned by %4°, views %5 px apart</source>
         <translation>dekodiert aus %1: Linsen von %3 px (%2), um %4° gedreht, Ansichten im Abstand von %5 px</translation>
     </message>
+    <message>
+        <source>The disparity holds values only where its mask is 0: the mask is taken for one of missing values, as NumPy writes them.</source>
+        <translation>Die Disparität hat nur dort Werte, wo ihre Maske 0 ist: Die Maske gilt als Maske fehlender Werte, wie NumPy sie schreibt.</translation>
+    </message>
+    <message>
+        <source>The mask marks missing values.</source>
+        <translation>Die Maske markiert fehlende Werte.</translation>
+    </message>
 </context>
 <context>
     <name>episcope::FocusController</name>

@@ -10,6 +10,7 @@
 #include "engine/io/base/sample_range.h"
 #include "engine/io/formats/archive_depth.h"
 #include "engine/io/formats/write_scene.h"
+#include "engine/io/models/array_samples.h"
 #include "engine/io/models/assemble_scene.h"
 #include "engine/io/models/load_views.h"
 #include "engine/io/models/order/view_axes.h"
@@ -21,7 +22,6 @@
 #include <array>
 #include <cstring>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -204,28 +204,17 @@ ViewStack<std::uint8_t> read_alpha(const Hdf5Input& file, const ArchiveLayout& l
   return tells ? std::move(valid) : ViewStack<std::uint8_t>();
 }
 
-/// The narrowest type that holds all integers of the first view.
-Hdf5Type type_of_integers(const Hdf5Input& file, ArchiveLayout first) {
-  first.shape.grid = {1, 1};
-  const auto view = read_views<float>(
-      file, first, [](const auto&) {}, Progress(1));
-  const auto [least, most] = std::minmax_element(view.data(), view.data() + view.size());
-  if (*least < 0 || *most > std::numeric_limits<std::uint16_t>::max()) return Hdf5Type::Float;
-  return *most > std::numeric_limits<std::uint8_t>::max() ? Hdf5Type::UInt16 : Hdf5Type::UInt8;
-}
-
 /// The samples of an archive file in the stored order of views and in their stored type; other
-/// integers take the narrowest type that holds the first view. Those of a large light field
+/// integers take the narrowest type that holds them. Those of a large light field
 /// (is_better_mapped) stay in the file, if it stores them as an array of 8 or 16 bits that nothing
 /// asks to change: they are there at once, and read when they are looked at. Shows the center view
 /// (OpenOptions::on_center_view) with `info`. Throws IoError, Cancelled.
 LightField::Samples read_archive_samples(const Hdf5Input& file, ArchiveLayout layout,
                                          const OpenOptions& options, const LightFieldInfo& info,
                                          const Progress& progress) {
-  if (layout.type == Hdf5Type::Integer) layout.type = type_of_integers(file, layout);
   const auto read = [&]<class T>(T) -> LightField::Samples {
     const auto show = [&](ImageView<const T> center) {
-      if (options.on_center_view) {
+      if (options.on_center_view && layout.type != Hdf5Type::Integer) {
         options.on_center_view(preview_rgb(center), info, layout.shape.grid);
       }
     };
@@ -237,7 +226,9 @@ LightField::Samples read_archive_samples(const Hdf5Input& file, ArchiveLayout la
   };
   if (layout.type == Hdf5Type::UInt8) return read(std::uint8_t{});
   if (layout.type == Hdf5Type::UInt16) return read(std::uint16_t{});
-  return read(float{});
+  LightField::Samples samples = read(float{});
+  if (layout.type == Hdf5Type::Integer) narrow(samples);
+  return samples;
 }
 
 namespace fs = std::filesystem;

@@ -235,7 +235,6 @@ void report_form(const ArrayFile& file, const ArrayEntry& entry, const ChosenLay
       fmt::format("{} ({}{} {}; axes {})", file.form(), name,
                   layout_text(chosen.layout, entry.order), number_name(entry.type), chosen.reason);
   if (!entry.warning.empty()) report.warnings.push_back(entry.warning);
-  if (!chosen.warning.empty()) report.warnings.push_back(chosen.warning);
 }
 
 /// Exchanges rows and columns of views, unless they were stated, if only that makes the grid that
@@ -332,6 +331,9 @@ Scene read_single(const ArrayFile& file, const char* reader, const OpenOptions& 
   parts.expected.reason = finding_text("order.of_arrays");
   if (more.add) more.add(parts, scene.convention, progress.part(0.75, 0.8));
   assemble(std::move(parts), options, scene, progress.part(0.8, 1));
+  if (scene.convention.are_axes_unclear && !chosen.warning.empty()) {
+    scene.convention.warnings.push_back(std::move(chosen.warning));
+  }
   return scene;
 }
 

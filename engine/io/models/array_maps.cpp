@@ -11,8 +11,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
+#include <utility>
 
 namespace episcope::io {
 namespace {
@@ -97,15 +100,41 @@ void take_disparity(const ArrayEntry& entry, ViewStack<float> values, ArrayMaps&
   maps.is_named_labels = kind_of(entry) == MapKind::Labels;
 }
 
-/// Pixels where a mask of the same single view is 0 hold no disparity.
-void mask_truth(ViewStack<std::uint8_t> mask, DisparityField& field) {
-  if (mask.empty() || field.empty() || field.disparity.grid().count() != 1) return;
-  if (field.valid.empty()) {
-    field.valid = std::move(mask);
-    return;
+/// Whether only pixels where the mask is 0 hold values, of which there are several.
+bool marks_missing(const ViewStack<std::uint8_t>& mask, const DisparityField& field) {
+  std::array<std::pair<float, float>, 2> range;
+  range.fill({std::numeric_limits<float>::max(), std::numeric_limits<float>::lowest()});
+  for (std::size_t i = 0; i < mask.size(); ++i) {
+    const float value = field.disparity.data()[i];
+    if (!field.valid.empty() && field.valid.data()[i] == 0) continue;
+    auto& [least, most] = range[mask.data()[i] != 0 ? 1 : 0];
+    least = std::min(least, value);
+    most = std::max(most, value);
   }
+  return range[1].first >= range[1].second && range[0].first < range[0].second;
+}
+
+void mask_truth(const ViewStack<std::uint8_t>& mask, bool is_turned, DisparityField& field) {
+  field.require_mask();
   std::transform(mask.data(), mask.data() + mask.size(), field.valid.data(), field.valid.data(),
-                 [](std::uint8_t a, std::uint8_t b) { return std::min(a, b); });
+                 [&](std::uint8_t a, std::uint8_t b) {
+                   return static_cast<std::uint8_t>((a != 0) != is_turned && b != 0);
+                 });
+}
+
+/// Pixels where a mask of the same single view is 0 hold no disparity. A mask of values that are
+/// missing, as NumPy writes them, tells nothing of the views either.
+void use_masks(const ViewStack<std::uint8_t>& mask_of_one, ArrayMaps& maps) {
+  DisparityField& field = maps.truth.field;
+  const ViewStack<std::uint8_t>* const masks[] = {&mask_of_one, &maps.valid};
+  for (const ViewStack<std::uint8_t>* mask : masks) {
+    if (mask->empty() || mask->size() != field.disparity.size()) continue;
+    const bool is_turned = marks_missing(*mask, field);
+    if (is_turned || mask == &mask_of_one) mask_truth(*mask, is_turned, field);
+    if (!is_turned) continue;
+    maps.notes.emplace_back(finding_text("map.mask_turned"));
+    if (mask != &mask_of_one) maps.valid = {};
+  }
 }
 
 /// Depth would need the camera, which arrays do not state.
@@ -195,7 +224,7 @@ ArrayMaps read_array_maps(const ArrayFile& file, const std::vector<const ArrayEn
                                        axes->height()));
     }
   }
-  mask_truth(std::move(mask_of_one), maps.truth.field);
+  use_masks(mask_of_one, maps);
   return maps;
 }
 

@@ -177,8 +177,8 @@ bool lies_in(const ViewStack<float>& stack, float smallest, float largest) {
                      [=](float sample) { return smallest <= sample && sample <= largest; });
 }
 
-/// Integers in the narrowest type that holds them; negative ones, and those above 65535, stay
-/// floats.
+}  // namespace
+
 void narrow(LightField::Samples& samples) {
   const auto& floats = std::get<ViewStack<float>>(samples);
   if (lies_in(floats, 0, std::numeric_limits<std::uint8_t>::max())) {
@@ -187,8 +187,6 @@ void narrow(LightField::Samples& samples) {
     samples = converted<std::uint16_t>(floats);
   }
 }
-
-}  // namespace
 
 ArraySamples read_samples(const ArrayInput& array, const ArrayLayout& layout,
                           const Progress& progress) {

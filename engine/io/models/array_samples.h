@@ -25,6 +25,10 @@ struct ArraySamples {
   std::string left_out{};
 };
 
+/// Turns floats that are integers into the narrowest of uint8 and uint16 that holds them all;
+/// negative ones, and those above 65535, stay floats.
+void narrow(LightField::Samples& samples);
+
 /// Reads a whole light field once, in blocks of at most 64 MB in the order of the file (whole
 /// chunks of a compressed one), and brings each into the order of views, `[v][u][y][x][c]`. Types:
 /// bytes and booleans become uint8, other integers the narrowest of uint8, uint16 and float that
