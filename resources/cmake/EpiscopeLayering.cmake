@@ -99,6 +99,7 @@ episcope_forbid(episcope_solvers ${ui} ${above_engine} ${hdf5} "^opencv"
                 "^episcope_(io|disparity|labeling|render)$")
 episcope_forbid(episcope_cuda ${ui} ${above_engine} ${hdf5} "^opencv"
                 "^episcope_(io|scenes|solvers|disparity|labeling|evaluation|render)$")
+episcope_forbid(episcope_io_order ${ui} ${above_engine} ${hdf5} "^opencv" "^episcope_io$")
 episcope_forbid(episcope_io ${ui} ${above_engine} "^episcope_(disparity|labeling|evaluation|render|scenes)$")
 foreach(target episcope_scenes episcope_render)
   episcope_forbid(${target} ${ui} ${above_engine} ${hdf5} "^episcope_(io|disparity|labeling|evaluation)$")
