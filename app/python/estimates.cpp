@@ -115,20 +115,20 @@ void save_estimate(const FoundEstimate& found, const py::object& given_path, con
 }
 
 /// What is judged: a result, the name of its file, or an array of maps, read so.
-EstimatePtr judged_estimate(const py::object& map, const LightField& lf,
-                            const io::MapReading& reading) {
+std::shared_ptr<Estimate> judged_estimate(const py::object& map, const LightField& lf,
+                                          const io::MapReading& reading) {
   if (py::isinstance<FoundEstimate>(map)) {
     const EstimatePtr& found = py::cast<const FoundEstimate&>(map).estimate;
-    if (reading == io::MapReading{}) return found;
-    auto changed = std::make_shared<Estimate>();
-    changed->set_provenance(found->provenance());
-    changed->field = found->field.clone();
-    changed->layered.foreground = found->layered.foreground.clone();
-    io::apply_reading(reading, &lf, *changed);  // refuses one in two layers
-    return changed;
+    auto copy = std::make_shared<Estimate>();
+    copy->set_provenance(found->provenance());
+    copy->field = found->field.clone();
+    copy->layered.foreground = found->layered.foreground.clone();
+    copy->layered.background = found->layered.background.clone();
+    if (!(reading == io::MapReading{})) io::apply_reading(reading, &lf, *copy);
+    return copy;
   }
   if (names_path(map)) {
-    return std::make_shared<const Estimate>(read_result_of(lf, path_from(map), reading));
+    return std::make_shared<Estimate>(read_result_of(lf, path_from(map), reading));
   }
   DisparityField field;
   field.disparity = maps_from(numbers_from<float>(map, "the maps"), lf.grid(), "the maps");
@@ -137,7 +137,7 @@ EstimatePtr judged_estimate(const py::object& map, const LightField& lf,
         "rows and columns of the maps are exchanged for those of the views; transpose them, or "
         "give map_transpose=True");
   }
-  return std::make_shared<const Estimate>(result_from_maps(lf, std::move(field), "array", reading));
+  return std::make_shared<Estimate>(result_from_maps(lf, std::move(field), "array", reading));
 }
 
 py::dict scores_of(const Estimate& estimate, const Evaluation& evaluation, Protocol protocol,
@@ -162,8 +162,8 @@ py::dict scores_of(const Estimate& estimate, const Evaluation& evaluation, Proto
 py::dict score_scene(const py::object& map, const OpenedScene& opened, EvaluationOptions options,
                      const py::object& view, const io::MapReading& reading) {
   const LightField& lf = opened.light_field();
-  const EstimatePtr estimate = judged_estimate(map, lf, reading);
-  const ViewIndex at = view_from(view, lf.grid()).value_or(judged_view(*opened.scene));
+  const std::shared_ptr<Estimate> estimate = judged_estimate(map, lf, reading);
+  const ViewIndex at = settle_view(*opened.scene, view_from(view, lf.grid()), *estimate);
   std::optional<io::BetterReading> better;
   Evaluation evaluation = result_of_job(py::none(), 0, [&](const Progress& job) {
     options.progress = job;
@@ -203,21 +203,34 @@ GridShape grid_of_maps(const py::object& maps) {
   return {lengths[0], lengths[1]};
 }
 
+/// The view that is wanted, else the only one of a result, else the center.
+ViewIndex view_to_score(const py::object& judged, const py::object& view, GridShape grid) {
+  if (!view.is_none()) return *view_from(view, grid);
+  const bool is_result = py::isinstance<FoundEstimate>(judged);
+  const py::object own =
+      is_result ? single_view_of(py::cast<const FoundEstimate&>(judged)) : py::object(py::none());
+  return own.is_none() || grid.count() == 1 ? grid.center() : *view_from(own, grid);
+}
+
 /// Against an array: pixel by pixel, with nothing known of the light field.
 py::dict score_array(const py::object& judged, const py::object& truth,
-                     const EvaluationOptions& options, const io::MapReading& reading) {
+                     const EvaluationOptions& options, const py::object& view,
+                     const io::MapReading& reading) {
   const py::object map = py::isinstance<FoundEstimate>(judged) ? judged.attr("disparity") : judged;
   const GridShape of_truth = grid_of_maps(truth);
   const GridShape grid = of_truth.count() > 1 ? of_truth : grid_of_maps(map);
+  const ViewIndex at = view_to_score(judged, view, grid);
   const DisparityField known = field_from(truth, grid, "the truth");
   Estimate estimate;
   estimate.field = field_from(map, grid, "the maps");
   estimate.method = "array";
   io::apply_reading(reading, nullptr, estimate);
-  const ViewIndex center = grid.center();
-  const DisparityView one = estimate.field.view(center);
-  Evaluation evaluation = evaluate(one, known.view(center), {}, options);
-  const std::string doubt = poor_fit_text(one, known.view(center));
+  const auto view_in = [at](const DisparityField& field) {
+    return field.view(field.disparity.grid().count() == 1 ? field.disparity.first() : at);
+  };
+  const DisparityView one = view_in(estimate.field), true_one = view_in(known);
+  Evaluation evaluation = evaluate(one, true_one, {}, options);
+  const std::string doubt = poor_fit_text(one, true_one);
   if (!doubt.empty()) evaluation.notes.push_back(doubt);
   return scores_of(estimate, evaluation, options.protocol, estimate.field.disparity.grid() == grid);
 }
@@ -260,8 +273,7 @@ py::dict score(const py::object& map, const py::object& truth, const std::string
   if (names_path(truth)) {
     return score_scene(map, scene_at(path_from(truth), map), options, view, reading);
   }
-  if (view.is_none()) return score_array(map, truth, options, reading);
-  throw InvalidInput("view chooses a view of a light field; of arrays, give the maps of the view");
+  return score_array(map, truth, options, view, reading);
 }
 
 using ResultClass = py::class_<FoundEstimate>;
@@ -364,10 +376,10 @@ void add_score(py::module_& module) {
 Compares disparity with the truth; a dict with the keys of 'episcope-cli evaluate --json', such as
 mse_100 and density.
 
-map: a Result, the path of a result, or an array in px per view step, [y, x] of the center view or
-[v, u, y, x] of all, NaN where there is no value. truth: a LightField, the path of one, or an array,
+map: a Result, the path of a result, or an array in px per view step, [y, x] of the judged view or
+[v, u, y, x] of all, NaN or masked where there is no value. truth: a LightField, the path of one, or an array,
 [y, x] or [v, u, y, x]. protocol: 'vmv2013' or 'benchmark2016'. invalid: how missing values count, 'bad' or
-'compatible'. view: (v, u), by default the center. reading: how maps are to be read, as the options
+'compatible'. view: (v, u), by default that of a Result of one view, else the center. reading: how maps are to be read, as the options
 --map-… of 'episcope-cli evaluate': map_transpose, map_flip, map_scale, map_values, map_border,
 map_down, map_right, map_resize, map_crop, map_missing.
 Raises InvalidInput where sizes differ or there is no truth.)");

@@ -17,6 +17,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
+#include <set>
 #include <utility>
 
 namespace episcope::python {
@@ -30,11 +32,23 @@ struct ScoredLabels {
 /// Labels of all views as Python sees them.
 struct FoundLabels : ScoredLabels {
   OpenedScene of;
+  std::string unlabeled{};  ///< A sentence about an id that was taken for unlabeled unasked.
 };
 
 void add_view(const ImageView<const std::int32_t>& labels, ViewIndex view, Scribbles& scribbles) {
   scribbles.views.push_back({view, Image<std::int32_t>(labels.height, labels.width)});
   std::copy_n(labels.data, labels.size(), scribbles.views.back().labels.data());
+}
+
+/// 255 where other labels are all smaller, as in pictures of labels (LabelReading::ignored).
+std::vector<std::int32_t> usually_ignored(const Scribbles& scribbles) {
+  constexpr std::int32_t kVoid = 255;
+  std::set<std::int32_t> ids;
+  for (const ViewScribbles& one : scribbles.views) {
+    ids.insert(one.labels.begin(), one.labels.end());
+  }
+  const bool is_void = !ids.empty() && *ids.rbegin() == kVoid && *ids.upper_bound(0) < kVoid;
+  return is_void ? std::vector{kVoid} : std::vector<std::int32_t>{};
 }
 
 /// Takes negative and ignored ids for unpainted, and leaves out views where nothing is painted.
@@ -126,20 +140,22 @@ EstimatePtr estimate_from(const py::object& disparity) {
 }
 
 FoundLabels label(const py::object& light_field, const py::object& painted,
-                  const std::vector<std::int32_t>& ignore, const py::object& disparity,
-                  const std::string& device, int threads, const py::object& progress,
-                  const py::kwargs& given) {
+                  const std::optional<std::vector<std::int32_t>>& ignore,
+                  const py::object& disparity, const std::string& device, int threads,
+                  const py::object& progress, const py::kwargs& given) {
   const OpenedScene& opened = scene_from(light_field);
   const auto schema = labeler_schema();
   const LabelerParameters parameters = schema.parse(parameters_from(given, schema.descriptions()));
   Scribbles scribbles = scribbles_from(painted, *opened.scene);
-  leave_painted(ignore, scribbles);
+  const auto ignored = ignore ? *ignore : usually_ignored(scribbles);
+  leave_painted(ignored, scribbles);
   const EstimatePtr estimate = estimate_from(disparity);
   const Device on = run_options(device, threads).device;
   ScoredLabels labels = result_of_job(progress, threads, [&](const Progress& job) {
     return label_scene(*opened.scene, scribbles, parameters, estimate, on, job);
   });
-  return {std::move(labels), opened};
+  const bool is_told = ignore || ignored.empty();
+  return {std::move(labels), opened, is_told ? "" : "255 is taken for unlabeled"};
 }
 
 void save_labels(const FoundLabels& found, const py::object& given_path, bool probabilities,
@@ -156,8 +172,9 @@ void save_labels(const FoundLabels& found, const py::object& given_path, bool pr
 }
 
 std::vector<std::string> notes_of(const FoundLabels& found) {
-  const std::string& note = found.segmentation.labeling->note;
-  return note.empty() ? std::vector<std::string>{} : std::vector{note};
+  std::vector notes{found.unlabeled, found.segmentation.labeling->note};
+  std::erase(notes, std::string());
+  return notes;
 }
 
 py::dict label_scores(const FoundLabels& found) {
@@ -194,10 +211,9 @@ Writes an HDF5 file of labels; with probabilities, four bytes more for each ray 
 that name are replaced if they were made with the same parameters and strokes from the same light
 field, others only with overwrite=True; what is no file of labels, never.)");
   module.def("label", label, py::arg("light_field"), py::arg("scribbles") = py::none(),
-             py::kw_only(), py::arg("ignore") = std::vector<std::int32_t>(),
-             py::arg("disparity") = py::none(), py::arg("device") = "auto", py::arg("threads") = 0,
-             py::arg("progress") = py::none(),
-             R"(label(light_field, scribbles=None, *, ignore=(), disparity=None, device='auto',
+             py::kw_only(), py::arg("ignore") = py::none(), py::arg("disparity") = py::none(),
+             py::arg("device") = "auto", py::arg("threads") = 0, py::arg("progress") = py::none(),
+             R"(label(light_field, scribbles=None, *, ignore=None, disparity=None, device='auto',
       threads=0, progress=None, **parameters)
 --
 
@@ -206,7 +222,7 @@ Labels every pixel of all views from a few painted ones.
 scribbles: whole numbers, 0, negative or NaN = unpainted, [y, x] of the center view, [v, u, y, x] of all, or a dict
 of [y, x] by (v, u); None: those that lie beside the light field. At least two labels must be
 painted.
-ignore: other numbers that mean unpainted, such as (255,).
+ignore: other numbers that mean unpainted, such as (255,); None: 255 where other labels are smaller.
 disparity: a Result of all views; by default it is estimated. parameters: those of 'episcope-cli
 label --help', such as features='image'. progress: called as progress(fraction, step).
 Raises InvalidInput for scribbles that do not fit.)");

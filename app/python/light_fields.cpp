@@ -97,10 +97,19 @@ class FileInMemory : public io::ArrayFile {
   const void* numbers_;
 };
 
+/// A masked array as floats with NaN where it is masked; others as they are.
+py::object unmasked(const py::object& object) {
+  const auto masked = py::module_::import("numpy").attr("ma");
+  if (!py::isinstance(object, masked.attr("MaskedArray"))) return object;
+  if (!py::cast<bool>(masked.attr("is_masked")(object))) return object.attr("data");
+  const py::object floats = object.attr("astype")("float64");
+  return floats.attr("filled")(std::numeric_limits<double>::quiet_NaN());
+}
+
 /// In C order, and in the byte order of this machine.
 py::array in_order(const py::object& object) {
   const auto numpy = py::module_::import("numpy");
-  const py::object array = numpy.attr("asarray")(object);
+  const py::object array = numpy.attr("asarray")(unmasked(object));
   return numpy.attr("ascontiguousarray")(array, array.attr("dtype").attr("newbyteorder")("="));
 }
 
@@ -435,7 +444,7 @@ OrderedArray<T> numbers_from(const py::object& array, const std::string& what) {
     throw InvalidInput("an array of " + numbers + " is expected for " + what + ", not the path '" +
                        path_from(array) + "'; read the file first");
   }
-  const auto given = py::array::ensure(array);
+  const auto given = py::array::ensure(unmasked(array));
   if (given && kinds.find(given.dtype().kind()) != std::string::npos) {
     if (is_whole) require_ids(given, what);
     return OrderedArray<T>(given);
@@ -460,15 +469,17 @@ template OrderedArray<float> numbers_from(const py::object&, const std::string&)
 
 template <class T>
 ViewStack<T> maps_from(const OrderedArray<T>& array, GridShape grid, const std::string& what) {
-  const bool is_center = array.ndim() == 2;
-  const bool is_all = array.ndim() == 4 && array.shape(0) == grid.v && array.shape(1) == grid.u;
+  const bool has_channel = array.ndim() % 2 == 1 && array.shape(array.ndim() - 1) == 1;
+  const py::ssize_t axes = array.ndim() - (has_channel ? 1 : 0);
+  const bool is_center = axes == 2;
+  const bool is_all = axes == 4 && array.shape(0) == grid.v && array.shape(1) == grid.u;
   if ((!is_center && !is_all) || array.size() == 0) {
     throw InvalidInput(what + " have the shape " + shape_text(array) +
                        ", but must be [y][x] of the center view or [v][u][y][x] of the " +
                        std::to_string(grid.v) + "×" + std::to_string(grid.u) + " views");
   }
   const auto length = [&](py::ssize_t from_end) {
-    return static_cast<int>(array.shape(array.ndim() - from_end));
+    return static_cast<int>(array.shape(axes - from_end));
   };
   ViewStack<T> maps(is_center ? GridShape{1, 1} : grid, length(2), length(1), 1,
                     is_center ? grid.center() : ViewIndex{});

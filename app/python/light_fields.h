@@ -50,8 +50,9 @@ using OrderedArray = py::array_t<T, py::array::c_style | py::array::forcecast>;
 template <class T>
 [[nodiscard]] OrderedArray<T> numbers_from(const py::object& array, const std::string& what);
 
-/// Maps of a light field of this grid: `[y][x]` of the center view, or `[v][u][y][x]` of all. T:
-/// int32, float. Throws InvalidInput, naming `what`, for another shape.
+/// Maps of a light field of this grid: `[y][x]` of the center view, or `[v][u][y][x]` of all,
+/// perhaps with a last axis of length 1. T: int32, float. Throws InvalidInput, naming `what`, for
+/// another shape.
 template <class T>
 [[nodiscard]] ViewStack<T> maps_from(const OrderedArray<T>& array, GridShape grid,
                                      const std::string& what);

@@ -152,6 +152,23 @@ ViewIndex judged_view(const Scene& scene) {
   return view_of(truth.has_disparity() ? truth.field : truth.foreground, *scene.light_field);
 }
 
+ViewIndex settle_view(const Scene& scene, std::optional<ViewIndex> wanted, Estimate& estimate) {
+  ViewStack<float>& maps = estimate.field.disparity;
+  const ViewIndex usual = wanted.value_or(judged_view(scene));
+  if (maps.grid().count() != 1) return usual;
+  const bool is_ours = !estimate.version.empty();
+  if (is_ours) return !wanted && can_judge(estimate, scene, maps.first()) ? maps.first() : usual;
+  const auto move = [&](auto& stack) {
+    if (!stack.empty()) stack.keep_in_place(stack.first(), {1, 1}, usual);
+  };
+  move(maps);
+  move(estimate.field.valid);
+  move(estimate.confidence);
+  move(estimate.second.disparity);
+  move(estimate.second.valid);
+  return usual;
+}
+
 bool can_judge(const Estimate& estimate, const Scene& scene, ViewIndex view) {
   const GroundTruth& truth = *scene.truth;
   if (compares_layers(estimate, truth)) {

@@ -331,6 +331,7 @@ class Runner {
         run_estimator(scene, *request_.estimator, run.parameters, options_, progress.part(0, 0.85))
             .estimate;
     progress.step("writing " + task.output);
+    check(task);  // another program may have written it meanwhile
     if (request_.is_submission) {
       submit(task, *estimate, center);
     } else if (map_form(task.output)) {

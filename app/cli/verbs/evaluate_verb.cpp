@@ -506,9 +506,9 @@ class Judge {
     job_.progress().check();
     job_.progress().step("evaluating " + file.result);
     const auto estimate =
-        std::make_shared<const Estimate>(read_result_of(light_field, file.result, reading_));
-    const ViewIndex view =
-        request_.view ? view_of(light_field, *request_.view) : judged_view(scene);
+        std::make_shared<Estimate>(read_result_of(light_field, file.result, reading_));
+    if (request_.view) static_cast<void>(view_of(light_field, *request_.view));
+    const ViewIndex view = settle_view(scene, request_.view, *estimate);
     require_own_samples(file, *estimate, light_field);
     const EvaluationPtr evaluation = evaluation_of(file, *estimate, scene, view);
     if (!file.is_own) note_other_source(*estimate, light_field, job_);

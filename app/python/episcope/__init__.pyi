@@ -147,7 +147,7 @@ def label(
     light_field: LightField,
     scribbles: Union[None, npt.ArrayLike, Mapping[View, npt.ArrayLike]] = ...,
     *,
-    ignore: Sequence[int] = ...,
+    ignore: Optional[Sequence[int]] = ...,
     disparity: Optional[Result] = ...,
     device: str = ...,
     threads: int = ...,

@@ -115,6 +115,15 @@ void allow_openexr() {
   static_cast<void>(is_set);
 }
 
+/// A plain PNM file whose last number nothing follows, which OpenCV takes for cut off.
+cv::Mat with_line_end(const fs::path& path) {
+  FileBytes file(path);
+  if (!file.begins_with("P2") && !file.begins_with("P3")) return {};
+  std::string text(std::istreambuf_iterator<char>(file.at(0)), {});
+  text += '\n';
+  return cv::imdecode(std::vector<char>(text.begin(), text.end()), cv::IMREAD_UNCHANGED);
+}
+
 /// A picture as OpenCV decodes it.
 struct DecodedMat {
   cv::Mat pixels;
@@ -149,6 +158,7 @@ DecodedMat read_mat(const fs::path& path, PicturePart part) {
   try {
     decoded = exr && !exr->renamed.empty() ? cv::imdecode(exr->renamed, cv::IMREAD_UNCHANGED)
                                            : cv::imread(path.string(), cv::IMREAD_UNCHANGED);
+    if (decoded.empty()) decoded = with_line_end(path);
   } catch (const cv::Exception&) {
     decoded.release();
   }
@@ -506,6 +516,30 @@ LabelPicture split_mat(const cv::Mat& decoded) {
 
 }  // namespace
 
+namespace {
+
+/// Levels of a picture so that black is 0 and white the largest of the type. What libraries decode
+/// leaves white of PNM as it is stated, and 16 bits of a TIFF file whose 0 is white.
+void settle_levels(const fs::path& path, AnyImage& image) {
+  const auto header = stated_image_header(path);
+  if (!header || (header->white == 0 && !header->is_white_zero)) return;
+  std::visit(
+      [&]<class T>(Image<T>& samples) {
+        if constexpr (std::is_integral_v<T>) {
+          const std::uint32_t full = std::numeric_limits<T>::max(), white = header->white;
+          const bool is_inverted = header->is_white_zero && sizeof(T) > 1;
+          for (T& sample : samples) {
+            if (white > 0)
+              sample = static_cast<T>(std::min(full, (sample * full + white / 2) / white));
+            if (is_inverted) sample = static_cast<T>(full - sample);
+          }
+        }
+      },
+      image);
+}
+
+}  // namespace
+
 SeenImage decode_seen(const fs::path& path) {
   require_readable_file(path);
   if (has_png_signature(path)) return decode_png_seen(path);
@@ -513,7 +547,9 @@ SeenImage decode_seen(const fs::path& path) {
   if (has_radiance_signature(path)) return {decode_radiance(path)};
   require_whole_jpeg(path);
   const DecodedMat decoded = read_mat(path, PicturePart::Colors);
-  return {image_of(path, decoded.pixels), seen_in(decoded)};
+  SeenImage read{image_of(path, decoded.pixels), seen_in(decoded)};
+  settle_levels(path, read.image);
+  return read;
 }
 
 LabelPicture decode_label_picture(const fs::path& path) {

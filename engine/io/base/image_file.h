@@ -32,7 +32,8 @@ struct SeenImage {
   Image<std::uint8_t> seen{};
 };
 
-/// Decodes as `decode_image` does. Throws IoError.
+/// Decodes as `decode_image` does, with levels from black, 0, to white, the largest of the type.
+/// Throws IoError.
 [[nodiscard]] SeenImage decode_seen(const std::filesystem::path& path);
 
 /// Decodes the first `count` pages of a TIFF file. Throws IoError, also if there are fewer pages.

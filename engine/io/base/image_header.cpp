@@ -70,12 +70,15 @@ ImageHeader pnm_header(FileBytes& file, int channels) {
     in >> number;
   }
   if (!in) return {};
-  return {length(numbers[1]), length(numbers[0]), channels, of_bits(numbers[2] > 255 ? 16 : 8)};
+  const bool is_word = numbers[2] > 255;
+  const bool is_full = numbers[2] == 255 || numbers[2] >= 65535;
+  return {length(numbers[1]), length(numbers[0]), channels, of_bits(is_word ? 16 : 8),
+          is_full ? 0 : numbers[2]};
 }
 
 ImageHeader tiff_header(const std::filesystem::path& path) {
   constexpr std::uint64_t kWidth = 256, kHeight = 257, kBits = 258, kOrientation = 274,
-                          kChannels = 277, kFormat = 339;
+                          kPhotometric = 262, kChannels = 277, kFormat = 339;
   constexpr std::uint32_t kFloats = 3;
   TiffFile file(path);
   const auto number = [&](std::uint64_t tag, std::uint32_t otherwise) {
@@ -85,6 +88,7 @@ ImageHeader tiff_header(const std::filesystem::path& path) {
   ImageHeader header{
       length(number(kHeight, 0)), length(number(kWidth, 0)), number(kChannels, 1) < 3 ? 1 : 3,
       number(kFormat, 1) == kFloats ? SampleType::Float32 : of_bits(number(kBits, 8))};
+  header.is_white_zero = number(kPhotometric, 1) == 0;
   const std::uint32_t orientation = number(kOrientation, 1);
   const bool is_turned = orientation >= 5 && orientation <= 8;  // decoded upright
   if (is_turned) std::swap(header.width, header.height);

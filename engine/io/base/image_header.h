@@ -57,6 +57,8 @@ struct ImageHeader {
   int width = 0;
   int channels = 0;
   SampleType sample_type = SampleType::UInt8;
+  std::uint32_t white = 0;     ///< Value of white that a PNM states; 0 = the largest of the type.
+  bool is_white_zero = false;  ///< Of a TIFF whose 0 is white.
 };
 
 /// Reads the header of a PNG, JPEG, TIFF, BMP or PNM. `channels` is 0 if a palette decides. Returns

@@ -193,7 +193,13 @@ ArraySamples read_samples(const ArrayInput& array, const ArrayLayout& layout,
   const NumberType type = array.type();
   if (is_float(type)) return read_as<float>(array, layout, progress);
   if (byte_size(type) == 1 && type != NumberType::Int8) {
-    return read_as<std::uint8_t>(array, layout, progress);
+    ArraySamples read = read_as<std::uint8_t>(array, layout, progress);
+    auto& bytes = std::get<ViewStack<std::uint8_t>>(read.samples);
+    if (type == NumberType::Bool) {
+      std::for_each(bytes.data(), bytes.data() + bytes.size(),
+                    [](std::uint8_t& sample) { sample = sample != 0 ? 255 : 0; });
+    }
+    return read;
   }
   const bool is_of_words = type == NumberType::UInt16;
   ArraySamples read = is_of_words ? read_as<std::uint16_t>(array, layout, progress)

@@ -31,8 +31,8 @@ void narrow(LightField::Samples& samples);
 
 /// Reads a whole light field once, in blocks of at most 64 MB in the order of the file (whole
 /// chunks of a compressed one), and brings each into the order of views, `[v][u][y][x][c]`. Types:
-/// bytes and booleans become uint8, other integers the narrowest of uint8, uint16 and float that
-/// holds them all, floats float as stored. Views of a list lie in one row. Throws
+/// bytes stay uint8, booleans become 0 and 255, other integers the narrowest of uint8, uint16 and
+/// float that holds them all, floats float as stored. Views of a list lie in one row. Throws
 /// IoError, also if the views exceed the memory of this machine; Cancelled.
 [[nodiscard]] ArraySamples read_samples(const ArrayInput& array, const ArrayLayout& layout,
                                         const Progress& progress);

@@ -185,12 +185,17 @@ DisparityField read_hdf5_map(const fs::path& path, GridShape grid) {
   DisparityField field;
   field.disparity = read_laid_out<float>(file, map.name, layout,
                                          layout.has_one_view() ? grid.center() : ViewIndex{});
+  float* const begin = field.disparity.data();
+  float* const end = begin + field.disparity.size();
   for (const char* name : {"_FillValue", "missing_value"}) {  // of netCDF and xarray
     const auto none = file.number(map.name, name);
     if (none)
-      std::replace(field.disparity.data(), field.disparity.data() + field.disparity.size(),
-                   static_cast<float>(*none), std::numeric_limits<float>::quiet_NaN());
+      std::replace(begin, end, static_cast<float>(*none), std::numeric_limits<float>::quiet_NaN());
   }
+  const double scale = file.number(map.name, "scale_factor").value_or(1);
+  const double offset = file.number(map.name, "add_offset").value_or(0);
+  std::transform(begin, end, begin,
+                 [=](float value) { return static_cast<float>(value * scale + offset); });
   mark_invalid(field);
   return field;
 }

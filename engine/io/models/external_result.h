@@ -26,7 +26,8 @@ inline constexpr const char* kMapForms =
 /// one such dataset (`can_be_map`; floats go first), in the order of axes that it states
 /// (`stated_map_layout`). Of several arrays, the only one named like disparity is meant. A 2-D map
 /// belongs to the center view of `grid`. Values that are not finite, and those that an HDF5 file
-/// states as `_FillValue` or `missing_value`, become invalid pixels. Throws IoError with one
+/// states as `_FillValue` or `missing_value`, become invalid pixels; `scale_factor` and
+/// `add_offset` of such a file are applied (CF conventions). Throws IoError with one
 /// sentence, also for an `.npz` or MATLAB file with a light field.
 [[nodiscard]] DisparityField read_disparity_map(const std::filesystem::path& path, GridShape grid);
 

@@ -94,3 +94,10 @@ def test_maps_that_octave_saved_are_read_in_its_order(result, form, cli):
     for name in ["center.h5", "mine.h5" if form == "-hdf5" else "mine.mat"]:
         judged.append(cli("evaluate", name, "--truth", "demo:" + SCENE, "--json", "--quiet")["results"][0])
     assert judged[1]["mse_100"] == pytest.approx(judged[0]["mse_100"], rel=1e-6)
+
+
+def test_h5py_compresses_by_lzf_as_before(scene, tmp_path):
+    h5py = pytest.importorskip("h5py")
+    with h5py.File(tmp_path / "lf.h5", "w") as file:
+        file.create_dataset("LF", data=scene.views, compression="lzf", shuffle=True)
+    assert numpy.array_equal(episcope.open(tmp_path / "lf.h5").views, scene.views)

@@ -86,3 +86,18 @@ def test_ignored_numbers_and_nan_are_unpainted(scene, strokes, labeling):
     same = episcope.label(scene, other, ignore=[255], features="image", trees=16)
     assert same.ids == labeling.ids
     assert numpy.array_equal(same.labels, labeling.labels)
+
+
+def test_255_is_unlabeled_unless_it_says_otherwise(scene, strokes, labeling):
+    other = strokes.copy()
+    other[1::9] = 255
+    same = episcope.label(scene, other, features="image", trees=16)
+    assert numpy.array_equal(same.labels, labeling.labels)
+    assert "255 is taken for unlabeled" in same.notes
+    assert 255 in episcope.label(scene, other, ignore=(), features="image", trees=16).ids
+
+
+def test_masked_strokes_are_unpainted(scene, strokes, labeling):
+    hidden = strokes == 0
+    masked = numpy.ma.masked_array(numpy.where(hidden, 7, strokes), hidden)
+    assert numpy.array_equal(episcope.label(scene, masked, features="image", trees=16).labels, labeling.labels)

@@ -119,3 +119,17 @@ def test_stubs_name_what_there_is():
             stated = [argument.arg for argument in stub.args.args + stub.args.kwonlyargs]
             real = inspect.signature(getattr(episcope, name)).parameters.values()
             assert stated == [one.name for one in real if one.kind != one.VAR_KEYWORD], name
+
+
+def test_booleans_are_black_and_white(scene):
+    bright = scene.views > 100
+    assert numpy.array_equal(episcope.LightField(bright).views, numpy.where(bright, 255, 0))
+
+
+def test_masked_samples_do_not_count(scene):
+    hidden = numpy.zeros(scene.views.shape, bool)
+    hidden[:, :, :4] = True
+    opened = episcope.LightField(numpy.ma.masked_array(scene.views, hidden))
+    assert any("NaN" in note for note in opened.notes)
+    nothing = numpy.ma.masked_array(scene.views, False)
+    assert numpy.array_equal(episcope.LightField(nothing).views, scene.views)

@@ -120,8 +120,38 @@ def test_truth_may_be_an_array(scene, result):
     assert episcope.score(result.disparity[2, 2], scene.truth[2, 2])["mse_100"] == expected
     assert episcope.score(result, scene.truth[2, 2])["mse_100"] == expected
     assert episcope.score(result.disparity[2, 2], scene.truth)["mse_100"] == expected
-    with pytest.raises(episcope.InvalidInput, match="of arrays, give the maps of the view"):
-        episcope.score(result, scene.truth, view=(0, 0))
+    of_corner = episcope.score(result, scene, view=(0, 0))["mse_100"]
+    assert episcope.score(result, scene.truth, view=(0, 0))["mse_100"] == of_corner
+    assert episcope.score(result.disparity[0, 0], scene, view=(0, 0))["mse_100"] == of_corner
+
+
+def test_result_of_one_view_is_judged_in_that_view(scene, tmp_path, cli):
+    cli("estimate", "st_ch_s", scene.source, "-o", "r.h5", "--view", "1,2", "--quiet")
+    with_truth = episcope.score(tmp_path / "r.h5", scene)
+    assert with_truth["view"] == (1, 2)
+    assert "notes" not in with_truth
+    cli("convert", "r.h5", "r.npy", "--quiet")
+    assert episcope.score(tmp_path / "r.npy", scene, view=(1, 2))["mse_100"] == with_truth["mse_100"]
+    assert episcope.score(numpy.load(tmp_path / "r.npy"), scene.truth[1, 2])["mse_100"] == pytest.approx(
+        with_truth["mse_100"])
+
+
+def test_masked_values_are_missing(scene, result):
+    maps = result.disparity[2, 2].copy()
+    hidden = numpy.zeros(maps.shape, bool)
+    hidden[:20] = True
+    with_nan = numpy.where(hidden, numpy.nan, maps)
+    maps[hidden] = 7
+    masked = numpy.ma.masked_array(maps, hidden)
+    assert episcope.score(masked, scene) == episcope.score(with_nan, scene)
+    truth = numpy.ma.masked_array(numpy.where(hidden, 7, scene.truth[2, 2]), hidden)
+    assert episcope.score(result, truth)["mse_100"] == episcope.score(
+        result, numpy.where(hidden, numpy.nan, scene.truth[2, 2]))["mse_100"]
+
+
+def test_maps_may_have_an_axis_of_one_channel(scene, result):
+    assert episcope.score(result.disparity[..., None], scene) == episcope.score(result.disparity, scene)
+    assert episcope.score(result.disparity[2, 2, ..., None], scene) == episcope.score(result.disparity[2, 2], scene)
 
 
 def test_truth_may_be_a_path(scene, result, tmp_path):

@@ -36,6 +36,18 @@ expect("evaluate one view" 0 ARGS evaluate one.h5 --truth lf.h5 --json)
 json_near("${out}" 0 0.0001 results 0 mse_100)
 json_is("${out}" OFF results 0 all_views)
 
+# The same map as that of another view.
+expect("estimate a corner" 0 ERR "note: " ARGS estimate st_ch_s lf.h5 -o corner.h5 --view 0,2)
+expect("evaluate the corner" 0 ARGS evaluate corner.h5 --truth lf.h5 --json)
+json_is("${out}" 2 results 0 view 1)
+string(JSON of_corner GET "${out}" results 0 mse_100)
+expect("convert the corner" 0 ARGS convert corner.h5 corner.npy)
+expect("evaluate a map of a stated view" 0 ARGS evaluate corner.npy --truth lf.h5 --view 0,2 --json)
+string(JSON of_map GET "${out}" results 0 mse_100)
+if(NOT of_map STREQUAL of_corner)
+  fail_case("a map of a stated view has ${of_map}, its result ${of_corner}")
+endif()
+
 expect("two maps" 1 ERR "2 were found \\(left, right\\)" ARGS show two.h5 -o two.png)
 expect("two maps to convert" 1 ERR "2 were found \\(left, right\\)" ARGS convert two.h5 two.pfm)
 expect("error without a truth" 2 ERR "--truth" ARGS show one.h5 -o e2.png --what error)
