@@ -125,6 +125,9 @@ Scene read_scene(const fs::path& path, const OpenOptions& options, const Progres
 }  // namespace
 
 Scene open_scene(const fs::path& path, const OpenOptions& options, const Progress& progress) {
+  if (options.equalize && options.keep_brightness) {
+    throw InvalidInput("equalize and no-equalize exclude each other; choose one of them");
+  }
   try {
     const Progress reading = progress.part(0, options.focus_px == 0 ? 1 : 0.8);
     Scene scene = read_scene(path, options, reading);

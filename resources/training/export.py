@@ -22,7 +22,7 @@ import kernels
 import network
 import views
 
-VERSION = 7
+VERSION = 8
 LARGE = 10000    # weights of a layer that are kept in 8 bits, at least
 CONV, NORM = (nn.Conv2d, nn.Conv3d), (nn.BatchNorm2d, nn.BatchNorm3d)
 
@@ -220,12 +220,19 @@ def vectors(net, path):
     np.savez(path, **{k: v.cpu().numpy() if torch.is_tensor(v) else v for k, v in out.items()})
 
 
+def weights_of(checkpoints):
+    """The mean of the weights of checkpoints."""
+    all = [torch.load(c + '/ema.pt', map_location='cuda') for c in checkpoints]
+    mean = lambda k, v: (sum(one[k].float() for one in all) / len(all)).to(v.dtype).float()
+    return {k: mean(k, v) if v.is_floating_point() else v for k, v in all[-1].items()}
+
+
 def main():
-    checkpoint, path, commit, date = sys.argv[1:5]
+    """export.py CHECKPOINT[,CHECKPOINT…] NET.NPZ COMMIT DATE [VECTORS.NPZ]: several are averaged; the last has the record."""
+    checkpoints, path, commit, date = sys.argv[1].split(','), *sys.argv[2:5]
     net = network.Net().cuda().eval()
-    net.load_state_dict({k: v.float() if v.is_floating_point() else v
-                         for k, v in torch.load(checkpoint + '/ema.pt', map_location='cuda').items()})
-    done = json.load(open(checkpoint + '/state.json'))
+    net.load_state_dict(weights_of(checkpoints))
+    done = json.load(open(checkpoints[-1] + '/state.json'))
     r = write(fold(net), path, dict(commit=commit, date=date, iterations=done['iteration'],
                                     hours=round(sum(p['seconds'] for p in done['pieces']) / 3600, 3), pieces=done['pieces'],
                                     data='procedural light fields drawn by generator.py alone'))

@@ -120,10 +120,22 @@ int count_benchmark_views(const fs::path& folder) {
   return static_cast<int>(numbered_views(folder).size());
 }
 
+/// Throws InvalidInput if a grid that was given has not as many views as there are files, or
+/// contradicts the one that is stated, which has.
+void require_grid(const fs::path& folder, GridShape given, GridShape stated, int count) {
+  if (given.count() >= count && (given == stated || stated.count() != count)) return;
+  throw InvalidInput(fmt::format(
+      "{}: there are {} files input_Cam*.png{}, but --grid says {}; leave --grid out{}",
+      folder.string(), count,
+      stated.count() == count ? fmt::format(" and {} says {}", kBenchmarkConfig, grid_text(stated))
+                              : "",
+      grid_text(given), stated.count() == count ? ", or correct that file" : ""));
+}
+
 /// Views by their index from 0, or from 1, row by row from the top left: of the grid that was
 /// given, else that of `config`, else a square; in the folder, or in the only one inside it that
 /// has some. If some are missing, the part of the grid without gaps (`part_to_open`). Throws
-/// IoError, also if there is no such part.
+/// IoError, also if there is no such part; InvalidInput for a grid that cannot be.
 BenchmarkViews benchmark_views(const fs::path& folder, const std::optional<ConfigFile>& config,
                                const std::optional<GridShape>& given) {
   const std::map<int, fs::path> found = numbered_views(folder);
@@ -136,6 +148,10 @@ BenchmarkViews benchmark_views(const fs::path& folder, const std::optional<Confi
   }
   if (given) {
     grid = *given;
+    require_grid(
+        folder, grid,
+        {whole_int(rows.value_or(0)).value_or(0), whole_int(columns.value_or(0)).value_or(0)},
+        count);
   } else if (columns && rows) {
     grid = {whole_int(*rows).value_or(0), whole_int(*columns).value_or(0)};
     if (grid.v < 1 || grid.u < 1 || grid.v > 1000 || grid.u > 1000) {

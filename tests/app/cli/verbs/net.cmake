@@ -2,10 +2,10 @@
 include("${CMAKE_CURRENT_LIST_DIR}/../cli_support.cmake")
 run_cli(synthesize edge -o lf.h5 --views 3x3 --size 40x48 -q)
 
-expect("its weights" 0 OUT "^net .*; all views; CPU, GPU\n  weights: version 7 of 2026-[0-9-]+, SHA-256 [0-9a-f]+, /.*net.npz\n.*--weights"
+expect("its weights" 0 OUT "^net .*; all views; CPU, GPU\n  weights: version 8 of 2026-[0-9-]+, SHA-256 [0-9a-f]+, /.*net.npz\n.*--weights"
        ARGS methods net)
 run_cli(methods net --json)
-json_is("${out}" 7 methods 0 weights version)
+json_is("${out}" 8 methods 0 weights version)
 string(JSON weights GET "${out}" methods 0 weights file)
 expect("two methods" 0 OUT "^epi_l .*\nnet " ARGS methods epi_l net)
 expect("no such method" 2 ERR "no method 'nett'.*'net'" ARGS methods nett)

@@ -337,6 +337,21 @@ class BenchmarkFolderTest : public QObject {
         warnings.front().c_str());
   }
 
+  void gridThatContradictsConfig_isRefused_data() {
+    QTest::addColumn<QString>("grid");
+    QTest::newRow("fewer views") << "2x2";
+    QTest::newRow("as many, otherwise") << "1x9";
+  }
+  void gridThatContradictsConfig_isRefused() {
+    QFETCH(QString, grid);
+    write_views("");
+    std::ofstream(folder_->path("parameters.cfg"))
+        << "[extrinsics]\nnum_cams_x = 3\nnum_cams_y = 3\n";
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, folder_->open("", {.grid = grid.toStdString()}));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput,
+                             folder_->open("", {.equalize = true, .keep_brightness = true}));
+  }
+
   void withoutConfig_gridsThatAreNotSquareAreLists() {
     fs::remove(folder_->path("parameters.cfg"));
     write_views("", 6);
