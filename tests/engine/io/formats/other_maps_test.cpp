@@ -128,7 +128,7 @@ class OtherMapsTest : public QObject {
   }
 
   void maskOfMissingValuesOfAllViews_leavesTheViewsValid() {
-    ViewStack<float> maps = scene_.truth->field.disparity;
+    ViewStack<float> maps = scene_.truth->field.disparity.clone();
     ViewStack<std::uint8_t> mask(maps.grid(), maps.height(), maps.width());
     for (std::size_t i = 0; i < maps.size(); i += 7) {
       maps.data()[i] = std::nanf("");
@@ -140,13 +140,13 @@ class OtherMapsTest : public QObject {
       add(file, "mask", mask);
     });
 
-    QVERIFY(read.light_field->valid().empty());
+    QVERIFY(read.light_field->is_valid({}, 0, 0));
     QVERIFY(!read.truth->field.view({}).is_valid(0, 0));
     QVERIFY(read.truth->field.view({}).is_valid(0, 1));
   }
 
   void brighterViewsOfWideIntegers_areKept() {
-    const ViewStack<std::uint8_t> bytes = bytes_of(scene_);
+    const ViewStack<std::uint8_t>& bytes = bytes_of(scene_);
     ViewStack<std::int32_t> wide(bytes.grid(), bytes.height(), bytes.width(), bytes.channels());
     std::copy_n(bytes.data(), bytes.size(), wide.data());
     wide.data()[wide.size() - 1] = 300;
