@@ -314,6 +314,22 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
      "The disparity holds values only where its mask is 0: the mask is taken for one of missing "
      "values, as NumPy writes them.",
      "The mask marks missing values."},
+    {"map.equal_names",
+     "{} is taken for true and {} is not, though their names claim as much; rename or remove one "
+     "of "
+     "them if that is wrong.",
+     "%1 is used, %2 is not."},
+    {"map.computed_name",
+     "{} is not taken for true, since its name is that of an estimate; call it gt_… if it is true.",
+     "%1 is not used: its name is that of an estimate."},
+    {"map.unfit_name",
+     "{} is named like a map and not used: it has {}, but maps of one view or of all {}×{} views "
+     "with {}×{} px are expected.",
+     "%1 is not used: it has %2."},
+    {"map.masked", "{} leaves out {:.1f} % of the ground truth.",
+     "%1 leaves out %2 % of the truth."},
+    {"map.row_by_row", "The {} maps of {} are taken for those of the views, row by row.",
+     "The maps of %2 are taken row by row."},
     {"map.border",
      "A border of {} px has one value only and counts as padding; {}×{} px are used."},
     {"map.middle",

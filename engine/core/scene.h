@@ -151,6 +151,8 @@ struct ConventionReport {
   ViewCrop crop;               ///< Which views were kept, for companions,
   bool raised_labels = false;  ///< and whether stored labels began at 0 and were raised by one.
   StatedFacts stated;
+  /// Files that hold the disparity or depth of the ground truth, if they lie beside the views.
+  std::vector<std::filesystem::path> truth_files;
 };
 
 /// Sentences for users: `order`, `sign`, or `units` with its check, and who chose it.

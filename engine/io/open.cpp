@@ -12,10 +12,14 @@
 #include "engine/io/formats/blender_reader.h"
 #include "engine/io/formats/frames_reader.h"
 #include "engine/io/formats/image_grid.h"
+#include "engine/io/formats/mosaic_layout.h"
 #include "engine/io/formats/mosaic_reader.h"
 #include "engine/io/formats/sequence_reader.h"
+#include "engine/io/models/names/view_folders.h"
 #include "engine/io/models/reader.h"
 #include "engine/io/models/scribble_file.h"
+#include "engine/io/models/sidecar_maps/find_maps.h"
+#include "engine/io/models/sidecar_maps/scene_files.h"
 
 #include <algorithm>
 #include <iterator>
@@ -139,6 +143,19 @@ Scene open_scene(const fs::path& path, const OpenOptions& options, const Progres
   } catch (const std::bad_alloc&) {
     throw IoError(path, kNotEnoughMemory);
   }
+}
+
+bool reads_as_truth(const fs::path& map, const fs::path& input) {
+  std::error_code error;
+  if (fs::is_directory(input, error)) return is_found_as_truth(map, views_folder(input));
+  if (!fs::is_regular_file(input, error)) return false;
+  const bool is_picture = is_image_name(input);
+  const std::string scene = is_picture ? scene_of_mosaic(input) : input.stem().string();
+  // Only beside NumPy arrays and pictures may maps be called after nothing.
+  const bool may_be_only = is_picture || suffix_of(input) == ".npy";
+  const SceneFiles own({scene}, light_fields_beside(input), may_be_only);
+  const fs::path folder = input.has_parent_path() ? input.parent_path() : fs::path(".");
+  return is_found_as_truth(map, folder, [&](const fs::path& file) { return own.contains(file); });
 }
 
 }  // namespace episcope::io

@@ -17,4 +17,9 @@ namespace episcope::io {
 [[nodiscard]] Scene open_scene(const std::filesystem::path& path, const OpenOptions& options,
                                const Progress& progress);
 
+/// Whether opening `input` takes a map in a file of this name for its ground truth. The file need
+/// not exist.
+[[nodiscard]] bool reads_as_truth(const std::filesystem::path& map,
+                                  const std::filesystem::path& input);
+
 }  // namespace episcope::io

@@ -3347,6 +3347,46 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <source>The mask marks missing values.</source>
         <translation>Die Maske markiert fehlende Werte.</translation>
     </message>
+    <message>
+        <source>%1 is named like a map and not used: it has %2, but maps of one view or of all %3×%4 views with %5×%6 px are expected.</source>
+        <translation>%1 heißt wie eine Karte und wird nicht verwendet: vorhanden ist %2, erwartet werden Karten einer Ansicht oder aller %3×%4 Ansichten mit %5×%6 px.</translation>
+    </message>
+    <message>
+        <source>%1 is not taken for true, since its name is that of an estimate; call it gt_… if it is true.</source>
+        <translation>%1 gilt nicht als wahr, denn der Name ist der einer Schätzung; ist die Karte wahr, nennen Sie sie gt_….</translation>
+    </message>
+    <message>
+        <source>%1 is not used: it has %2.</source>
+        <translation>%1 wird nicht verwendet: vorhanden ist %2.</translation>
+    </message>
+    <message>
+        <source>%1 is not used: its name is that of an estimate.</source>
+        <translation>%1 wird nicht verwendet: der Name ist der einer Schätzung.</translation>
+    </message>
+    <message>
+        <source>%1 is taken for true and %2 is not, though their names claim as much; rename or remove one of them if that is wrong.</source>
+        <translation>%1 gilt als wahr und %2 nicht, obwohl die Namen gleich viel besagen; ist das falsch, benennen Sie eine der beiden um oder entfernen Sie sie.</translation>
+    </message>
+    <message>
+        <source>%1 is used, %2 is not.</source>
+        <translation>%1 wird verwendet, %2 nicht.</translation>
+    </message>
+    <message>
+        <source>%1 leaves out %2 % of the ground truth.</source>
+        <translation>%1 lässt %2 % der Referenz aus.</translation>
+    </message>
+    <message>
+        <source>%1 leaves out %2 % of the truth.</source>
+        <translation>%1 lässt %2 % der Referenz aus.</translation>
+    </message>
+    <message>
+        <source>The %1 maps of %2 are taken for those of the views, row by row.</source>
+        <translation>Die %1 Karten von %2 gelten als die der Ansichten, Zeile für Zeile.</translation>
+    </message>
+    <message>
+        <source>The maps of %2 are taken row by row.</source>
+        <translation>Die Karten von %2 gelten Zeile für Zeile.</translation>
+    </message>
 </context>
 <context>
     <name>episcope::FocusController</name>

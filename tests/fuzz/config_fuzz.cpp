@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/formats/benchmark_reader.h"
 #include "engine/io/models/assemble_scene.h"
+#include "engine/io/models/sidecar_maps/map_places.h"
 #include "engine/io/models/sidecar_maps/sidecar_maps.h"
 #include "tests/engine/io/formats/array_files.h"
 #include "tests/fuzz/harness.h"

@@ -16,6 +16,7 @@
 #include "engine/io/base/json.h"
 #include "engine/io/models/external_result.h"
 #include "engine/io/models/result_file.h"
+#include "engine/io/open.h"
 
 #include <nlohmann/json.hpp>
 
@@ -27,6 +28,8 @@
 
 namespace episcope::cli {
 namespace {
+
+namespace fs = std::filesystem;
 
 struct EstimateArguments {
   std::string method;
@@ -132,6 +135,11 @@ std::optional<MapForm> map_form(const std::string& output) {
   const auto form = map_form_of(output);
   const bool is_map = form && form != MapForm::Result && form != MapForm::PointCloud;
   return is_map ? form : std::nullopt;
+}
+
+/// A name for a map of which no ground truth is read.
+std::string computed_name(const fs::path& output, const std::string& method) {
+  return output.stem().string() + "_estimate_" + method + output.extension().string();
 }
 
 /// Views that the method can estimate; what it cannot is wrong usage.
@@ -280,6 +288,10 @@ class Runner {
       note(task, run.method +
                      " runs at once: what does not fit is put on disk, and an interrupted "
                      "run begins again");
+    }
+    if (map_form(task.output) && io::reads_as_truth(task.output, task.input)) {
+      note(task, task.output + " will be read as ground truth of " + from_.shown(task.input) +
+                     ", by its name and place; call it " + computed_name(task.output, run.method));
     }
     Answer answer = in_blocks ? run_blocks(task, run, *scene.light_field, progress.part(0.3, 1))
                               : run_at_once(task, run, scene, progress.part(0.3, 1));

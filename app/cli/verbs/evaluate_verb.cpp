@@ -503,6 +503,7 @@ class Judge {
   [[nodiscard]] Row judge_file(const JudgedFile& file, const std::filesystem::path& error_map) {
     const Scene& scene = truth_.of(file);
     const LightField& light_field = *scene.light_field;
+    require_no_truth(file, scene.convention);
     job_.progress().check();
     job_.progress().step("evaluating " + file.result);
     const auto estimate =
@@ -546,6 +547,18 @@ class Judge {
   }
 
  private:
+  /// The ground truth itself would have no error.
+  static void require_no_truth(const JudgedFile& file, const ConventionReport& report) {
+    const auto is_result = [&](const fs::path& truth) {
+      std::error_code error;
+      return fs::equivalent(truth, file.result, error);
+    };
+    if (std::ranges::none_of(report.truth_files, is_result)) return;
+    throw IoError(file.result, "this file is read as the ground truth of " + file.truth +
+                                   " itself; move an estimate out of the folder, or call it "
+                                   "…_estimate");
+  }
+
   /// A result that names its light field itself is of that alone.
   void require_own_samples(const JudgedFile& file, const Estimate& estimate,
                            const LightField& light_field) {

@@ -83,6 +83,7 @@ std::vector<FileUse> read_other_maps(const std::shared_ptr<const Hdf5Input>& fil
   }
   if (parts.truth.labels.empty()) parts.truth.labels = std::move(maps.truth.labels);
   if (parts.valid.empty()) parts.valid = std::move(maps.valid);
+  parts.truth.regions.merge(maps.truth.regions);
   return maps.uses;
 }
 
@@ -564,10 +565,27 @@ std::string labels_with(const Hdf5Input& file) {
   if (!has_hdf5_signature(beside)) return {};
   const Hdf5Input labels(beside);
   const auto owner = labels.text("/", "light_field");
-  return owner && *owner != file.path().filename().string() ? "" : labels_of(labels);
+  const bool is_own =
+      owner ? *owner == file.path().filename().string() : is_label_file_of(file.path(), beside);
+  return is_own ? labels_of(labels) : "";
 }
 
 }  // namespace
+
+bool is_label_file_of(const std::filesystem::path& file, const std::filesystem::path& labels) {
+  if (file.filename() == "lf.h5" || labels.filename() != "labels.h5") return true;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(labels.parent_path(), error)) {
+    const fs::path& other = entry.path();
+    if (!has_hdf5_name(other) || other.filename() == file.filename()) continue;
+    try {
+      if (has_hdf5_signature(other) && Hdf5Input(other).has(kArchiveLightField)) return false;
+    } catch (const IoError&) {
+      continue;  // damaged
+    }
+  }
+  return true;
+}
 
 ArchiveLayout archive_layout(const Hdf5Input& file) {
   const Hdf5Dataset dataset =

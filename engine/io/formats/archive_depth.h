@@ -37,6 +37,11 @@ struct ArchiveLayout {
   Hdf5Type type = Hdf5Type::UInt8;
 };
 
+/// Whether a file of labels that does not name its light field belongs to this one: of `labels.h5`,
+/// only if no other file in the folder holds a light field, or to `lf.h5`.
+[[nodiscard]] bool is_label_file_of(const std::filesystem::path& file,
+                                    const std::filesystem::path& labels);
+
 /// Reads the layout. Throws IoError if there is no such dataset, or if it holds no light field.
 [[nodiscard]] ArchiveLayout archive_layout(const Hdf5Input& file);
 

@@ -14,6 +14,7 @@
 #include "engine/io/models/assemble_scene.h"
 #include "engine/io/models/load_views.h"
 #include "engine/io/models/order/view_axes.h"
+#include "engine/io/models/sidecar_maps/sidecar_maps.h"
 #include "engine/io/models/stored_maps.h"
 
 #include <fmt/format.h>
@@ -264,6 +265,10 @@ ArchiveLabels read_labels(const Hdf5Input& file, const FieldShape& shape, Conven
   // Where several light fields share a folder, labels that we wrote name theirs.
   const auto owner = labels.text("/", "light_field");
   if (owner && *owner != file.path().filename().string()) return own;
+  if (!owner && !is_label_file_of(file.path(), beside)) {
+    account.leave_out({beside}, "label files, as several light fields are there");
+    return own;
+  }
   if (!has_own) {
     account.use(beside, "label files");
     return read_archive_labels(labels, shape, report, progress);
@@ -373,18 +378,23 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
     report.warnings.push_back(
         fmt::format(finding_text("truth.estimated"), estimated_text(*truth.estimated)));
   }
-  assemble({.samples = std::move(samples),
-            .truth = std::move(truth),
-            .info = std::move(info),
-            .expected = std::move(expected),
-            .valid = std::move(valid)},
-           options, scene, progress.part(read, 1));
+  SceneParts parts{.samples = std::move(samples),
+                   .truth = std::move(truth),
+                   .info = std::move(info),
+                   .expected = std::move(expected),
+                   .valid = std::move(valid)};
+  std::vector<LabelInfo> infos;
+  if (!parts.truth.has_disparity() && !parts.truth.has_layers()) {
+    infos = add_maps_named_after(path, options, parts, {account, report}, reading.part(0.98, 1));
+  }
+  assemble(std::move(parts), options, scene, progress.part(read, 1));
   if (report.order_was_chosen) report.stated.sign.clear();
   if (!report.stated.sign.empty() && report.sign.empty()) {
     report.sign = "checked";
     report.sign_check = report.stated.sign;
   }
   scene.scribbles = std::move(labels.scribbles);
+  if (scene.scribbles.labels.empty()) scene.scribbles.labels = std::move(infos);
   put_in_order(scene.scribbles, grid, flip_of(report));
   if (report.crop.leaves_out()) {
     scene.scribbles = cropped(std::move(scene.scribbles), report.crop);

@@ -19,6 +19,7 @@
 #include "engine/io/models/numpy_file.h"
 #include "engine/io/models/order/list_layout.h"
 #include "engine/io/models/sidecar_maps/map_name.h"
+#include "engine/io/models/sidecar_maps/sidecar_maps.h"
 
 #include <fmt/format.h>
 
@@ -281,6 +282,15 @@ SceneProbe probe_single(const ArrayFile& file, const OpenOptions& options) {
   return probe;
 }
 
+/// Of a map in a file of its own, beside a NumPy array or in its folder.
+void note_truth_file(const ArrayFile& file, const std::string& name, ConventionReport& report) {
+  const bool is_folder = fs::is_directory(file.path());
+  if (!is_folder && suffix_of(file.path()) != ".npy") return;
+  const fs::path folder = is_folder ? file.path() : file.path().parent_path();
+  const fs::path map = folder / (name + ".npy");
+  if (is_there(map)) report.truth_files.push_back(map);
+}
+
 Scene read_single(const ArrayFile& file, const char* reader, const OpenOptions& options,
                   const Progress& progress, const OtherArrays& more) {
   const ArrayEntry& entry = light_field_of(file, options);
@@ -324,12 +334,19 @@ Scene read_single(const ArrayFile& file, const char* reader, const OpenOptions& 
     arrange_list(file.path(), options, parts, chosen.reason, progress.part(0.7, 0.75), stored);
   }
   settle_disparity(parts.samples, maps, parts.truth.field, scene.convention);
+  if (!parts.truth.field.empty()) note_truth_file(file, maps.disparity_name, scene.convention);
   report_form(file, entry, chosen, scene.convention);
   parts.files = std::move(maps.uses);
   parts.files.insert(parts.files.begin(), {"light field", 1, entry.name, true});
   parts.expected.is_truth_sign_assumed = maps.is_sign_assumed;
   parts.expected.reason = finding_text("order.of_arrays");
   if (more.add) more.add(parts, scene.convention, progress.part(0.75, 0.8));
+  if (parts.truth.field.empty() && !fs::is_directory(file.path())) {
+    FileUsage account(file.path());
+    scene.scribbles.labels = add_maps_named_after(
+        file.path(), options, parts, {account, scene.convention}, progress.part(0.75, 0.8));
+    std::ranges::move(account.uses(), std::back_inserter(parts.files));
+  }
   assemble(std::move(parts), options, scene, progress.part(0.8, 1));
   if (scene.convention.are_axes_unclear && !chosen.warning.empty()) {
     scene.convention.warnings.push_back(std::move(chosen.warning));

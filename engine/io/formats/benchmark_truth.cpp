@@ -156,6 +156,11 @@ class Files {
   void tell(const std::string& kind, const SidecarNotes& notes) const {
     outcome_.tell(kind, notes);
   }
+  /// Of maps that are the ground truth.
+  void tell_truth(const std::string& kind, const SidecarNotes& notes) const {
+    notes.report.truth_files = outcome_.read;
+    tell(kind, notes);
+  }
 
  private:
   SetOutcome outcome_;
@@ -216,7 +221,7 @@ DisparityField read_of_all_views(const fs::path& folder, const SidecarViews& vie
     files.read(file, [&] { store(read_map(file, views), view, field); });
     progress.report((i + 1.0) / part.count());
   }
-  files.tell("disparity maps", notes);
+  files.tell_truth("disparity maps", notes);
   return files.has_read_any() ? std::move(field) : DisparityField();
 }
 
@@ -232,7 +237,7 @@ DisparityField read_of_center(const fs::path& file, const std::string& kind,
     convert(map);
     store(map, center, field);
   });
-  files.tell(kind, notes);
+  files.tell_truth(kind, notes);
   return files.has_read_any() ? std::move(field) : DisparityField();
 }
 
@@ -254,7 +259,7 @@ DisparityField read_reduced(const HighResFiles& high_res, const SidecarViews& vi
     }
     store(reduced, center, field);
   });
-  files.tell("disparity maps in high resolution", notes);
+  files.tell_truth("disparity maps in high resolution", notes);
   return files.has_read_any() ? std::move(field) : DisparityField();
 }
 

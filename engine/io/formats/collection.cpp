@@ -210,7 +210,7 @@ std::vector<CollectionEntry> find_light_fields(const fs::path& root,
 namespace {
 
 using Json = nlohmann::json;
-constexpr int kForm = 5;  ///< Counts up when readers find other light fields.
+constexpr int kForm = 6;  ///< Counts up when readers find other light fields.
 
 /// Other readers may find other light fields.
 std::string key_of_program() {

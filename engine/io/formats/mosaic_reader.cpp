@@ -17,6 +17,7 @@
 #include "engine/io/models/names/grid_names.h"
 #include "engine/io/models/names/view_folders.h"
 #include "engine/io/models/sidecar_maps/map_name.h"
+#include "engine/io/models/sidecar_maps/scene_files.h"
 #include "engine/io/models/sidecar_maps/sidecar_maps.h"
 
 #include <fmt/format.h>
@@ -227,30 +228,6 @@ bool is_only_mosaic(const fs::path& picture) {
   });
 }
 
-/// Which files of a folder belong to a picture of all views: those named after its scene
-/// ("flower_depth.png" to "flower_eslf.png", and not to "flower_2_eslf.png"); if no other picture
-/// of the folder is a light field (`is_only_mosaic`), all that are not named after one of the
-/// same size.
-class AdjacentMaps {
- public:
-  explicit AdjacentMaps(const std::filesystem::path& picture);
-
-  [[nodiscard]] bool contains(const std::filesystem::path& file) const;
-
- private:
-  std::string scene_;
-  std::vector<std::string> others_;  ///< Scenes of other pictures of all views.
-  bool is_only_ = false;
-};
-
-/// Length of the name of the scene if the file is named after it, else 0.
-std::size_t likeness(const std::string& stem, const std::string& scene) {
-  if (!stem.starts_with(scene)) return 0;
-  const bool is_word = stem.size() == scene.size() ||
-                       !(is_letter(stem[scene.size()]) || is_digit(stem[scene.size()]));
-  return is_word ? scene.size() : 0;
-}
-
 /// Whether `other` is as likely a picture of all views: by its name, or because it has the same
 /// size.
 bool is_alike(const std::filesystem::path& other, const std::filesystem::path& picture) {
@@ -260,20 +237,16 @@ bool is_alike(const std::filesystem::path& other, const std::filesystem::path& p
   return size && own && size->area() == own->area();
 }
 
-AdjacentMaps::AdjacentMaps(const std::filesystem::path& picture)
-    : scene_(scene_of_mosaic(picture)), is_only_(is_only_mosaic(picture)) {
+/// Which files of a folder belong to a picture of all views: those named after its scene
+/// ("flower_depth.png" to "flower_eslf.png", and not to "flower_2_eslf.png"), and those that name
+/// no scene if no other picture there is a light field (`is_only_mosaic`).
+SceneFiles maps_of(const std::filesystem::path& picture) {
+  std::vector<std::string> others = light_fields_beside(picture);
   for (const std::filesystem::path& other : list_images(scene_folder(picture))) {
     if (other.filename() == picture.filename() || !is_alike(other, picture)) continue;
-    others_.push_back(scene_of_mosaic(other));
+    others.push_back(scene_of_mosaic(other));
   }
-}
-
-bool AdjacentMaps::contains(const std::filesystem::path& file) const {
-  const std::string stem = lower_case(file.stem().string());
-  const std::size_t own = likeness(stem, scene_);
-  std::size_t of_another = 0;
-  for (const std::string& other : others_) of_another = std::max(of_another, likeness(stem, other));
-  return own > of_another || (is_only_ && of_another == 0);
+  return {{scene_of_mosaic(picture)}, std::move(others), is_only_mosaic(picture)};
 }
 
 std::string format_of(const MosaicLayout& layout) {
@@ -318,7 +291,7 @@ void add_beside(const fs::path& path, const OpenOptions& options, SceneParts& pa
   FileUsage account(is_only_mosaic(path) ? folder : path);
   account.use(path, "mosaics");
   const ViewFiles views{grid_of(parts.samples), {}};
-  const AdjacentMaps own(path);
+  const SceneFiles own = maps_of(path);
   SidecarMaps beside =
       read_sidecar_maps({.files = views,
                          .folder = folder,

@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <optional>
 
 namespace episcope::io {
 namespace {
@@ -47,25 +49,24 @@ class SliceInput : public ArrayInput {
 /// Some of the arrays of a file, and of stacks a slice.
 class PartOfFile : public ArrayFile {
  public:
-  PartOfFile(const ArrayFile& file, std::size_t slice)
-      : ArrayFile(file.path(), file.form()), file_(file), slice_(slice) {}
+  explicit PartOfFile(const ArrayFile& file) : ArrayFile(file.path(), file.form()), file_(file) {}
 
   void add_whole(ArrayEntry entry) {
     entry.parts.clear();  // the file itself puts them together
     add(std::move(entry));
   }
-  void add_slice(ArrayEntry entry);
+  void add_slice(ArrayEntry entry, std::size_t slice);
 
  private:
   [[nodiscard]] std::unique_ptr<ArrayInput> open_stored(const ArrayEntry& entry) const override {
     const auto& all = file_.entries();
     auto array = file_.open(*std::ranges::find(all, entry.name, &ArrayEntry::name));
     if (array->shape().size() == entry.shape.size()) return array;
-    return std::make_unique<SliceInput>(std::move(array), slice_);
+    return std::make_unique<SliceInput>(std::move(array), slices_.at(entry.name));
   }
 
   const ArrayFile& file_;
-  std::size_t slice_;
+  std::map<std::string, std::size_t> slices_;  ///< By the names of stacks.
 };
 
 ArrayEntry slice_of(ArrayEntry stack) {
@@ -78,8 +79,10 @@ ArrayEntry slice_of(ArrayEntry stack) {
   return stack;
 }
 
-void PartOfFile::add_slice(ArrayEntry entry) {
+void PartOfFile::add_slice(ArrayEntry entry, std::size_t slice) {
   entry.parts.clear();
+  entry.leading.clear();
+  slices_[entry.name] = slice;
   add(slice_of(std::move(entry)));
 }
 
@@ -96,21 +99,30 @@ std::vector<ArrayLayout> grey_layouts(const ArrayEntry& entry) {
   return layouts;
 }
 
-bool is_word_end(const std::string& text, std::size_t at) {
-  return at >= text.size() || !(is_letter(text[at]) || is_digit(text[at]));
+/// What ends a word: anything but letters and digits, or a number as well.
+enum class Words { Whole, Numbers };
+
+/// Whether a word may end, or begin, between two neighboring characters.
+bool parts_words(char a, char b, Words words) {
+  const auto is_part = [](char c) { return is_letter(c) || is_digit(c); };
+  return !is_part(a) || !is_part(b) || (words == Words::Numbers && is_digit(a) != is_digit(b));
 }
 
-/// Whether the name holds the word, with no letter nor digit next to it.
-bool holds_word(const std::string& name, const std::string& word) {
+/// Whether the name holds the word with nothing beside it that belongs to the same word.
+bool holds_word(const std::string& name, const std::string& word, Words words) {
   if (word.empty()) return false;
   for (auto at = name.find(word); at != std::string::npos; at = name.find(word, at + 1)) {
-    if ((at == 0 || is_word_end(name, at - 1)) && is_word_end(name, at + word.size())) return true;
+    const std::size_t end = at + word.size();
+    const bool begins = at == 0 || parts_words(name[at - 1], name[at], words);
+    const bool ends = end == name.size() || parts_words(name[end - 1], name[end], words);
+    if (begins && ends) return true;
   }
   return false;
 }
 
-/// What each of the names has alone: "a" and "b" of "a/LF" and "b/LF", in whole words.
-std::vector<std::string> own_words(const std::vector<std::string>& names) {
+/// What each of the names has alone: "a" and "b" of "a/LF" and "b/LF", in whole words; of LF1 and
+/// LF2 also "1" and "2".
+std::vector<std::string> own_words(const std::vector<std::string>& names, Words words) {
   const std::string& first = names.front();
   std::size_t begin = first.size();
   std::size_t end = first.size();
@@ -119,15 +131,48 @@ std::vector<std::string> own_words(const std::vector<std::string>& names) {
     const auto same = std::mismatch(first.rbegin(), first.rend(), name.rbegin(), name.rend());
     end = std::min<std::size_t>(end, same.first - first.rbegin());
   }
-  while (begin > 0 && !is_word_end(first, begin - 1)) --begin;
-  while (end > 0 && !is_word_end(first, first.size() - end)) --end;
-  std::vector<std::string> words;
+  // Where one name ends, another goes on.
+  const auto is_inside = [&](std::size_t at) {
+    const char before = at > 0 ? first[at - 1] : first[at];
+    const char after = at < first.size() ? first[at] : first[at - 1];
+    return !parts_words(before, after, words);
+  };
+  while (begin > 0 && is_inside(begin)) --begin;
+  while (end > 0 && is_inside(first.size() - end)) --end;
+  std::vector<std::string> own;
   for (const std::string& name : names) {
-    words.push_back(name.size() > begin + end ? name.substr(begin, name.size() - begin - end)
-                                              : std::string());
+    own.push_back(name.size() > begin + end ? name.substr(begin, name.size() - begin - end)
+                                            : std::string());
   }
-  return words;
+  return own;
 }
+
+/// The words by which maps tell their light field: whole ones, or numbers where no map has those.
+struct TellingWords {
+  Words words = Words::Whole;
+  std::vector<std::string> own;
+
+  TellingWords(const std::vector<std::string>& fields, const ArrayFile& file)
+      : own(own_words(fields, words)) {
+    const bool are_told = std::ranges::any_of(file.entries(), [&](const ArrayEntry& entry) {
+      return std::ranges::count(fields, entry.name) == 0 && owner_of(entry.name);
+    });
+    if (are_told) return;
+    words = Words::Numbers;
+    own = own_words(fields, words);
+  }
+
+  /// The light field whose word the name holds; nothing if it holds none, or several.
+  [[nodiscard]] std::optional<std::size_t> owner_of(const std::string& name) const {
+    std::optional<std::size_t> owner;
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      if (!holds_word(name, own[i], words)) continue;
+      if (owner) return std::nullopt;
+      owner = i;
+    }
+    return owner;
+  }
+};
 
 /// Whether the names call the same thing: in several groups, or numbered.
 bool are_alike(const std::vector<const ArrayEntry*>& entries) {
@@ -206,25 +251,29 @@ int MultiFieldFile::index(const ArrayFile& file, const OpenOptions& options) con
 
 std::unique_ptr<ArrayFile> MultiFieldFile::one(const ArrayFile& file, int index) const {
   const auto number = static_cast<std::size_t>(index);
-  auto part = std::make_unique<PartOfFile>(file, number);
+  auto part = std::make_unique<PartOfFile>(file);
   if (names_.size() == 1) {
     for (const ArrayEntry& entry : file.entries()) {
       const bool is_stack = entry.other_kind.empty() && !entry.is_of_views() &&
                             entry.shape.size() > 1 &&
                             entry.shape.front() == static_cast<std::size_t>(count_);
-      is_stack ? part->add_slice(entry) : part->add_whole(entry);
+      is_stack ? part->add_slice(entry, number) : part->add_whole(entry);
     }
     return part;
   }
-  const std::vector<std::string> words = own_words(names_);
+  const TellingWords telling(names_, file);
   for (const ArrayEntry& entry : file.entries()) {
-    const auto is_of = [&](std::size_t i) {
-      return entry.name == names_[i] || holds_word(entry.name, words[i]);
-    };
-    bool is_of_another = false;
-    for (std::size_t i = 0; i < names_.size(); ++i) is_of_another |= i != number && is_of(i);
-    const bool is_own = entry.name == names_[number] || is_of(number) || !is_of_another;
-    if (is_own && (entry.name == names_[number] || !std::ranges::count(names_, entry.name))) {
+    const auto field = std::ranges::find(names_, entry.name);
+    if (field != names_.end()) {
+      if (field - names_.begin() == index) part->add_whole(entry);
+      continue;
+    }
+    // Maps of three light fields or more were joined to a list.
+    const auto own_part = std::ranges::find_if(
+        entry.parts, [&](const std::string& name) { return telling.owner_of(name) == number; });
+    if (entry.leading == "n" && own_part != entry.parts.end()) {
+      part->add_slice(entry, static_cast<std::size_t>(own_part - entry.parts.begin()));
+    } else if (telling.owner_of(entry.name).value_or(number) == number) {
       part->add_whole(entry);
     }
   }

@@ -6,6 +6,7 @@
 #include "engine/io/base/array_layout.h"
 #include "engine/io/models/array_file.h"
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -37,11 +38,15 @@ inline constexpr const char* kNamedLabels = "named like labels, but with fractio
 /// Whether any value that is finite is not whole.
 [[nodiscard]] bool has_fractions(const ViewStack<float>& values);
 
+/// A warning that a mask leaves out more than 5 % of the known pixels; else empty.
+[[nodiscard]] std::string masked_text(const std::string& mask, std::size_t lost, std::size_t known);
+
 /// Reads disparity, labels and masks of the center view or of all views among `others`. Names tell
-/// the kind (`map_kind`, or "gt"); axes must match the light field without channels, if need be
-/// with y and x exchanged, which is noted. Other arrays are noted as not used. A mask of one view
-/// belongs to the disparity of one view. Fractional floats named like labels are disparity, as
-/// EPINET names it, if there is no other. Throws IoError, Cancelled.
+/// the kind (`map_kind`, `is_bare_truth_name`), and which of several is true (`map_claim`); axes
+/// must match the light field without channels, if need be with y and x exchanged, which is noted.
+/// A list of as many maps as views is taken row by row. Other arrays are noted as not used. A mask
+/// of one view belongs to the disparity of one view. Fractional floats named like labels are
+/// disparity, as EPINET names it, if there is no other. Throws IoError, Cancelled.
 [[nodiscard]] ArrayMaps read_array_maps(const ArrayFile& file,
                                         const std::vector<const ArrayEntry*>& others,
                                         const FieldAxes& light_field, bool wants_labels,

@@ -10,17 +10,20 @@
 #include "engine/io/base/hdf5_file.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/base/npy.h"
+#include "engine/io/base/tiff_file.h"
 #include "engine/io/models/array_file.h"
 #include "engine/io/models/array_samples.h"
 #include "engine/io/models/choose_layout.h"
 #include "engine/io/models/mat5.h"
 #include "engine/io/models/numpy_file.h"
+#include "engine/io/models/sidecar_maps/map_name.h"
 #include "engine/io/models/stored_maps.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <fstream>
 #include <functional>
 #include <limits>
@@ -69,8 +72,61 @@ Image<float> read_float_tiff(const fs::path& path) {
                     ", but a disparity map needs 32-bit float samples; export it in that format");
 }
 
+/// How many pages of the size of the first one follow each other, up to one more than `most`:
+/// smaller ones are reduced copies.
+int count_full_pages(const fs::path& path, int most) {
+  constexpr std::uint64_t kWidth = 256, kHeight = 257;
+  TiffFile file(path);
+  const std::vector<std::uint64_t> pages = file.directories(most);
+  const auto length = [&](std::uint64_t page, std::uint64_t tag) {
+    const auto value = file.tag(page, tag);
+    return value ? value->number : 0;
+  };
+  int count = 0;
+  for (const std::uint64_t page : pages) {
+    const bool is_full = length(page, kWidth) == length(pages.front(), kWidth) &&
+                         length(page, kHeight) == length(pages.front(), kHeight);
+    if (!is_full) break;
+    ++count;
+  }
+  return count;
+}
+
+/// The map of the center view, or a page for each view, row by row.
+DisparityField read_tiff_maps(const fs::path& path, GridShape grid) {
+  const int pages = count_full_pages(path, grid.count());
+  if (pages < 2) return center_field(path, read_float_tiff(path), grid);
+  if (pages != grid.count()) {
+    throw IoError(path,
+                  fmt::format("this file has {} pages, but maps of one view or of {}×{} views "
+                              "are expected, row by row; save the page of the center view "
+                              "alone, or one for each view",
+                              pages > grid.count() ? fmt::format("more than {}", grid.count())
+                                                   : std::to_string(pages),
+                              grid.v, grid.u));
+  }
+  DisparityField field;
+  const std::vector<SeenImage> decoded = decode_pages(path, pages);
+  for (int i = 0; i < pages; ++i) {
+    const auto* map = std::get_if<Image<float>>(&decoded[static_cast<std::size_t>(i)].image);
+    if (!map || map->channels() != 1) return center_field(path, read_float_tiff(path), grid);
+    ViewStack<float>& maps = field.disparity;
+    if (i == 0) maps = ViewStack<float>(grid, map->height(), map->width());
+    std::copy_n(map->data(), map->size(), maps.view(grid.view_at(i)).data);
+  }
+  mark_invalid(field);
+  return field;
+}
+
 bool names_disparity(const std::string& name) {
   return lower_case(name).find("disp") != std::string::npos;
+}
+
+/// Without those that claim to be true, if there are others: an estimate is looked for.
+template <class T, class NameOf>
+void leave_out_truth(std::vector<T>& maps, const NameOf& name_of) {
+  const auto is_true = [&](const T& map) { return map_claim(name_of(map)) == MapClaim::True; };
+  if (!std::ranges::all_of(maps, is_true)) std::erase_if(maps, is_true);
 }
 
 /// The place, among the names of all arrays that can be a disparity map, of the one that is meant:
@@ -112,6 +168,7 @@ Hdf5Dataset find_map(const Hdf5Input& file) {
   std::erase_if(maps, [](const Hdf5Dataset& dataset) { return !can_be_map(dataset); });
   const auto is_float = [](const Hdf5Dataset& map) { return map.type == Hdf5Type::Float; };
   if (std::ranges::any_of(maps, is_float)) std::erase_if(maps, std::not_fn(is_float));
+  leave_out_truth(maps, [](const Hdf5Dataset& map) { return map.name; });
   std::vector<std::string> names;
   for (const Hdf5Dataset& map : maps) names.push_back(map.name);
   return maps[meant_map(file.path(), names, "dataset of float samples")];
@@ -151,6 +208,7 @@ PlacedArray find_map(const ArrayFile& file) {
     }
     if (!maps.empty()) break;
   }
+  leave_out_truth(maps, [](const ArrayEntry* map) { return map->name; });
   std::vector<std::string> names;
   for (const ArrayEntry* map : maps) names.push_back(map->name);
   const ArrayEntry& meant = *maps[meant_map(file.path(), names, "array of numbers")];
@@ -329,7 +387,7 @@ DisparityField read_disparity_map(const fs::path& path, GridShape grid) {
   if (suffix == ".pfm") return center_field(path, read_pfm_map(path), grid);
   if (suffix == ".npy") return read_npy_field(path, grid);
   if (suffix == ".tif" || suffix == ".tiff") {
-    return center_field(path, read_float_tiff(path), grid);
+    return read_tiff_maps(path, grid);
   }
   if (suffix == ".exr") return center_field(path, read_exr_map(path), grid);
   if (has_text_suffix(path)) return center_field(path, read_text_map(path), grid);

@@ -7,6 +7,7 @@
 #include "engine/io/base/npy.h"
 #include "engine/io/models/choose_layout.h"
 #include "engine/io/models/sidecar_maps/map_name.h"
+#include "engine/io/models/sidecar_maps/scene_files.h"
 
 #include <algorithm>
 #include <fstream>
@@ -25,17 +26,23 @@ bool begins_as_npy(const fs::path& path) {
   return in.read(begin.data(), static_cast<std::streamsize>(begin.size())) && has_npy_magic(begin);
 }
 
+/// Where other light fields lie there, only maps that are named after this one.
 std::vector<fs::path> maps_beside(const fs::path& path) {
   std::vector<fs::path> found;
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  bool is_only = true;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     const fs::path& other = entry.path();
     if (suffix_of(other) != ".npy" || other.filename() == path.filename()) continue;
-    // Where another light field lies there, whose maps these are would be a guess.
-    if (!map_kind(other.stem().string()) || found.size() == kMostBeside) return {};
-    found.push_back(other);
+    const std::string stem = other.stem().string();
+    const bool is_map = map_kind(stem) || is_bare_truth_name(stem);
+    is_only = is_only && is_map;
+    if (is_map) found.push_back(other);
   }
+  const SceneFiles own({path.stem().string()}, light_fields_beside(path), is_only);
+  std::erase_if(found, [&](const fs::path& map) { return !own.contains(map); });
+  if (found.size() > kMostBeside) return {};
   std::ranges::sort(found);
   return found;
 }

@@ -67,6 +67,9 @@ class NameWords {
   /// Whether a word says that a number counts frames, times or exposures.
   [[nodiscard]] bool is_other_count(std::size_t number) const;
 
+  /// The word before a number; may be empty.
+  [[nodiscard]] const std::string& before(std::size_t number) const { return before_[number]; }
+
   /// Whether only a separator precedes a number.
   [[nodiscard]] bool is_free(std::size_t number) const { return free_[number]; }
 

@@ -18,7 +18,8 @@ namespace episcope::io {
 [[nodiscard]] std::filesystem::path only_grid_inside(const std::filesystem::path& folder);
 
 /// Finds the folder of views inside that is named lf, views, images, rectified or viewpoints…; else
-/// returns the folder itself.
+/// returns the folder itself. So it does if another folder beside that holds views and maps: then
+/// each is a scene.
 [[nodiscard]] std::filesystem::path named_views_folder(const std::filesystem::path& folder);
 
 /// Finds the folder of views inside the folder of a scene: named as above, or the only one with a

@@ -4,8 +4,9 @@
 #include "engine/core/text.h"
 #include "engine/io/base/exchange_files.h"
 #include "engine/io/base/files.h"
-#include "engine/io/models/names/view_folders.h"
+#include "engine/io/models/names/index_fields.h"
 #include "engine/io/models/sidecar_maps/map_file.h"
+#include "engine/io/models/sidecar_maps/map_places.h"
 
 #include <algorithm>
 #include <array>
@@ -46,29 +47,6 @@ std::vector<fs::path> list_files(const fs::path& folder) {
   }
   std::ranges::sort(files);
   return files;
-}
-
-std::vector<fs::path> map_folders_in(const fs::path& folder) {
-  std::vector<fs::path> folders;
-  std::error_code error;
-  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
-    std::error_code ignored;
-    // Links are not followed: they may lead around in circles.
-    if (it->is_symlink(ignored) || !it->is_directory(ignored)) continue;
-    if (is_map_folder(it->path().filename().string())) folders.push_back(it->path());
-  }
-  std::ranges::sort(folders);
-  return folders;
-}
-
-/// Whether the folder holds only the pictures of a scene, whose other files lie beside it.
-bool is_inner_folder(const fs::path& folder) {
-  constexpr std::array<std::string_view, 12> names{"lf",    "views", "images", "rectified",
-                                                   "image", "rgb",   "color",  "input",
-                                                   "sai",   "sais",  "png",    "subaperture"};
-  const std::string name = numbered_name(folder.filename().string()).text;
-  return std::ranges::find(names, name) != names.end() ||
-         only_grid_inside(folder.parent_path()) == folder;
 }
 
 /// Places of the first two numbers that vary.
@@ -280,51 +258,45 @@ void match(const std::vector<fs::path>& files, const ViewKeys& views, MapSet& se
   drop_doubles(set);
 }
 
-/// A folder to look at, and what its own name says about its files.
-struct MapPlace {
-  fs::path folder;
-  std::optional<MapKind> kind;
-  std::string prefix = {};  ///< Of patterns: "disparity/".
-};
-
-std::vector<MapPlace> map_places(const fs::path& folder) {
-  std::vector<MapPlace> places{{folder, std::nullopt}};
-  const auto add_inside = [&](const fs::path& outer) {
-    for (const fs::path& inner : map_folders_in(outer)) {
-      if (fs::equivalent(inner, folder)) continue;
-      const auto kind = map_kind(inner.filename().string());
-      const std::string prefix = inner.filename().string() + "/";
-      places.push_back({inner, kind, prefix});
-      for (const fs::path& deep : map_folders_in(inner)) {
-        const auto own = map_kind(deep.filename().string());
-        places.push_back({deep, own ? own : kind, prefix + deep.filename().string() + "/"});
-      }
-    }
-  };
-  add_inside(folder);
-  std::error_code error;
-  const fs::path whole = fs::absolute(folder).lexically_normal();
-  const fs::path clean = whole.has_filename() ? whole : whole.parent_path();
-  if (is_inner_folder(clean)) {
-    places.push_back({clean.parent_path(), std::nullopt});
-    add_inside(clean.parent_path());
-  } else if (fs::exists(folder / kBaselineFile, error)) {
-    places.push_back({clean.parent_path(), std::nullopt});
-  }
-  return places;
-}
-
-/// By its own name, else by the name of its folder.
-std::optional<MapKind> kind_of(const fs::path& file, std::optional<MapKind> of_folder) {
-  constexpr std::array<std::string_view, 3> kTruth{"gt", "ground_truth", "groundtruth"};
+/// By its own name, else by the name of its folder. `is_of_scene`: the file is called after the
+/// views.
+std::optional<MapKind> kind_of(const fs::path& file, const MapPlace& place, bool is_of_scene) {
   const std::string stem = file.stem().string();
   std::optional<MapKind> kind = map_kind(stem);
-  if (!kind) kind = of_folder;
-  const bool is_truth = std::ranges::find(kTruth, lower_case(stem)) != kTruth.end();
+  if (!kind) kind = place.kind;
+  const bool is_of_truth = place.claim == MapClaim::True && is_of_scene;
+  const bool is_truth = is_bare_truth_name(stem) || is_of_truth;
   if (!kind && is_truth && can_hold_values(file)) kind = MapKind::Disparity;
   if (!kind || !has_text_suffix(file)) return kind;
   const bool may_be_text = kind == MapKind::Disparity || kind == MapKind::Depth;
   return may_be_text && is_text_map(file) ? kind : std::nullopt;
+}
+
+/// By its own name, else by the name of its folder.
+MapClaim claim_of(const fs::path& file, const MapPlace& place) {
+  const MapClaim own = map_claim(file.stem().string());
+  return own == MapClaim::None ? place.claim : own;
+}
+
+/// The numbers behind words that count frames, times or exposures.
+std::map<std::string, long> frames_in(const fs::path& file) {
+  const NameParts parts = split_name(file.filename());
+  const NameWords words(parts.skeleton);
+  std::map<std::string, long> frames;
+  for (std::size_t i = 0; i < parts.numbers.size(); ++i) {
+    const auto number = parts.numbers[i].count();
+    if (words.is_other_count(i) && number) frames[words.before(i)] = static_cast<long>(*number);
+  }
+  return frames;
+}
+
+/// Whether the names of views and of a map have numbers of different frames.
+bool is_of_other_frame(const fs::path& map, const std::map<std::string, long>& frames) {
+  if (frames.empty()) return false;
+  return std::ranges::any_of(frames_in(map), [&](const auto& own) {
+    const auto same = frames.find(own.first);
+    return same != frames.end() && same->second != own.second;
+  });
 }
 
 /// What the name of a map adds to that of its view: "*_depth.npy" beside "03.png", the whole name
@@ -351,6 +323,7 @@ class MapsOfFolders {
   void find(const std::vector<MapPlace>& places) {
     if (views_.contains(folder_)) return;
     for (const MapPlace& place : places) {
+      if (!place.scene.empty()) continue;
       for (const auto& [inside, views] : views_) {
         look_into(place, inside.lexically_relative(folder_), views);
       }
@@ -375,13 +348,19 @@ class MapsOfFolders {
     const std::vector<fs::path> files = list_files(place.folder / inside);
     if (!files.empty()) found_.folders.push_back(place.folder / inside);
     for (const fs::path& file : files) {
-      const auto kind = taken_.contains(file) ? std::nullopt : kind_of(file, place.kind);
+      const auto kind = taken_.contains(file) ? std::nullopt : kind_of(file, place, false);
       if (!kind) continue;
+      const MapClaim claim = claim_of(file, place);
       for (const View& view : views) {
         const std::string role = role_of(file, view.file, views.size() == 1);
         if (role.empty()) continue;
+        if (claim == MapClaim::Computed) {
+          found_.computed.push_back(file);
+          break;
+        }
         MapSet& set = sets_[{*kind, place.prefix + "*/" + role}];
         set.kind = *kind;
+        set.claim = claim;
         set.pattern = place.prefix + "*/" + role;
         set.entries.push_back({view.number, file});
       }
@@ -415,25 +394,50 @@ FoundMapSets find_maps(const ViewFiles& views, const fs::path& folder, const IsO
   FoundMapSets found;
   const std::vector<MapPlace> places = map_places(folder);
   MapsOfFolders(views, folder, taken, found).find(places);
+  const auto frames =
+      views.files.empty() ? std::map<std::string, long>() : frames_in(views.files.front());
   for (const MapPlace& place : places) {
     std::map<std::pair<MapKind, std::string>, std::vector<fs::path>> groups;
     for (const fs::path& file : list_files(place.folder)) {
       if (taken.contains(file) || (is_own && !is_own(file))) continue;
-      const auto kind = kind_of(file, place.kind);
+      if (!place.may_hold(file)) continue;
+      const bool is_of_scene = is_own || !place.scene.empty();
+      const auto kind =
+          is_of_other_frame(file, frames) ? std::nullopt : kind_of(file, place, is_of_scene);
       if (!kind) continue;
+      if (claim_of(file, place) == MapClaim::Computed) {
+        found.computed.push_back(file);
+        continue;
+      }
       const std::string pattern =
           place.prefix + numbered_name(file.stem().string()).text + suffix_of(file);
       groups[{*kind, pattern}].push_back(file);
     }
     for (const auto& [key, files] : groups) {
       MapSet set{.kind = key.first, .pattern = key.second, .entries = {}, .strays = {}};
+      set.claim = claim_of(files.front(), place);
       match(files, keys, set);
       found.sets.push_back(std::move(set));
     }
     const bool is_other = place.folder != folder;
-    if (is_other && !groups.empty()) found.folders.push_back(place.folder);
+    const bool is_whole = place.scene.empty();  // else files of other scenes are counted
+    if (is_other && is_whole && !groups.empty()) found.folders.push_back(place.folder);
   }
   return found;
+}
+
+bool is_found_as_truth(const fs::path& file, const fs::path& folder, const IsOwnFile& is_own) {
+  const fs::path in = fs::absolute(file).lexically_normal();
+  if (!can_hold_values(in) || (is_own && !is_own(in))) return false;
+  return std::ranges::any_of(map_places(folder), [&](const MapPlace& place) {
+    std::error_code error;
+    if (!fs::equivalent(place.folder, in.parent_path(), error) || !place.may_hold(in)) return false;
+    const std::string stem = in.stem().string();
+    const auto kind = map_kind(stem) ? map_kind(stem) : place.kind;
+    const bool is_value =
+        kind == MapKind::Disparity || kind == MapKind::Depth || (!kind && is_bare_truth_name(stem));
+    return is_value && claim_of(in, place) != MapClaim::Computed;
+  });
 }
 
 }  // namespace episcope::io

@@ -25,6 +25,7 @@ struct MapSet {
   std::vector<std::filesystem::path> strays;
   std::vector<std::filesystem::path> of_left_out{};  ///< Of views that are not in the part opened.
   bool is_named_labels = false;  ///< Disparity whose files are named like labels.
+  MapClaim claim = MapClaim::None;
 
   [[nodiscard]] std::vector<std::filesystem::path> files() const;
   /// File of this view; empty if there is none.
@@ -35,11 +36,9 @@ struct FoundMapSets {
   std::vector<MapSet> sets;
   /// Other folders that were searched and hold maps.
   std::vector<std::filesystem::path> folders;
+  /// Files that are named like maps, but computed (`MapClaim::Computed`).
+  std::vector<std::filesystem::path> computed;
 };
-
-/// File beside views in which the Cambridge set for view interpolation states `base_x`, the
-/// distance of neighboring cameras. Its disparity refers to a distance of 1.
-inline constexpr const char* kBaselineFile = "param.txt";
 
 /// Whether a file may belong to the views, where several light fields share a folder.
 using IsOwnFile = std::function<bool(const std::filesystem::path& file)>;
@@ -49,8 +48,16 @@ using IsOwnFile = std::function<bool(const std::filesystem::path& file)>;
 /// like or has a `kBaselineFile`. Searches beside each view if each has a folder of its own.
 /// Numbers in names match the numbers of the views, or count the views row by row from any number.
 /// A single map without such numbers belongs to the center view of the whole grid. Ignores files
-/// that are not `is_own`. Linear in the files.
+/// that are not `is_own`, and those of another frame by the numbers behind words for time, where
+/// names of views have such. In folders of maps beside that of the views a file of the same name as
+/// the latter holds a map of the scene. Linear in the files.
 [[nodiscard]] FoundMapSets find_maps(const ViewFiles& views, const std::filesystem::path& folder,
+                                     const IsOwnFile& is_own = {});
+
+/// Whether `find_maps`, for views in this folder, takes a file of this name for disparity or depth
+/// that may be true. The file need not exist.
+[[nodiscard]] bool is_found_as_truth(const std::filesystem::path& file,
+                                     const std::filesystem::path& folder,
                                      const IsOwnFile& is_own = {});
 
 }  // namespace episcope::io

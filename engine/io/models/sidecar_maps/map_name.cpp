@@ -53,12 +53,53 @@ constexpr std::array<std::string_view, 5> kDepthWords{"depth", "depths", "depthm
 /// "mask_center.png" is no region of that name.
 constexpr std::array<std::string_view, 10> kMapOwners{"center", "centre", "view", "views", "cam",
                                                       "image",  "img",    "lf",   "u",     "v"};
-/// Of what a method has computed, which is no truth.
-constexpr std::array<std::string_view, 12> kResultWords{
-    "local", "estimate",   "estimates",   "estimated", "result", "results",
-    "pred",  "prediction", "predictions", "predicted", "output", "outputs"};
+/// Of what a method has computed, or of what is told about a map, which is no truth.
+constexpr std::array<std::string_view, 31> kResultWords{
+    "local", "est",         "estimate",   "estimates",   "estimated",   "result",   "results",
+    "pred",  "preds",       "prediction", "predictions", "predicted",   "output",   "outputs",
+    "error", "errors",      "err",        "std",         "stddev",      "var",      "variance",
+    "sigma", "uncertainty", "conf",       "confidence",  "confidences", "residual", "residuals",
+    "cost",  "costs",       "epinet"};
+/// Of a step or a method on the way to a map: of truth as well, where its name says so.
+constexpr std::array<std::string_view, 11> kStepWords{"init",     "initial", "raw",    "filtered",
+                                                      "smoothed", "refined", "epi",    "crf",
+                                                      "sgm",      "net",     "network"};
 constexpr std::array<std::string_view, 6> kTruthWords{"gt",         "truth",       "groundtruth",
                                                       "annotation", "annotations", "maps"};
+constexpr std::array<std::string_view, 8> kTrueWords{
+    "gt", "true", "truth", "groundtruth", "gtdisp", "gtdepth", "annotation", "annotations"};
+/// Beside words of maps, of what they belong to, and single letters.
+constexpr std::array<std::string_view, 24> kPlainWords{
+    "map",   "maps",       "ground", "target", "lowres", "highres", "low",    "high",
+    "res",   "left",       "right",  "row",    "col",    "column",  "sai",    "light",
+    "field", "lightfield", "data",   "float",  "ids",    "id",      "object", "frame"};
+constexpr std::array<std::string_view, 5> kBareNames{"gt", "ground_truth", "groundtruth", "truth",
+                                                     "target"};
+
+/// What a name says beside the word "mask" at its begin, at its end or before numbers and owners:
+/// "object" of "object_mask_03_03"; empty if it says nothing, or has no such word.
+std::string beside_mask(const std::string& name) {
+  constexpr std::string_view kMask = "mask";
+  const auto ends_word = [&](std::size_t i) { return i >= name.size() || !is_letter(name[i]); };
+  const auto begins_word = [&](std::size_t i) {
+    return i == 0 || !is_letter(name[i - 1]) || (is_capital(name[i]) && !is_capital(name[i - 1]));
+  };
+  const auto trimmed = [](const std::string& text) {
+    const auto is_mark = [](char c) { return !is_letter(c) && !is_digit(c); };
+    const auto begin = std::ranges::find_if_not(text, is_mark);
+    const auto end = std::find_if_not(text.rbegin(), text.rend(), is_mark).base();
+    return begin < end ? std::string(begin, end) : std::string();
+  };
+  const std::string small = lower_case(name);
+  for (std::size_t at = small.find(kMask); at != std::string::npos;
+       at = small.find(kMask, at + 1)) {
+    const std::size_t end = at + kMask.size() + (small.substr(at).starts_with("masks") ? 1 : 0);
+    if (!begins_word(at) || !ends_word(end)) continue;
+    const std::string before = trimmed(name.substr(0, at));
+    return before.empty() ? trimmed(name.substr(end)) : before;
+  }
+  return {};
+}
 
 }  // namespace
 
@@ -71,7 +112,6 @@ const char* kind_text(MapKind kind) {
 
 std::optional<MapKind> map_kind(const std::string& name) {
   const std::vector<std::string> words = name_words(name);
-  if (has_one_of(words, kResultWords)) return std::nullopt;
   if (!region_name(name).empty()) return MapKind::Region;
   if (has_one_of(words, kInvalidWords)) return MapKind::Invalid;
   if (has_one_of(words, kValidWords)) return MapKind::Valid;
@@ -82,11 +122,34 @@ std::optional<MapKind> map_kind(const std::string& name) {
   return std::nullopt;
 }
 
+bool is_bare_truth_name(const std::string& name) {
+  return std::ranges::find(kBareNames, lower_case(name)) != kBareNames.end();
+}
+
+bool names_other_scene(const std::string& name) {
+  if (!region_name(name).empty()) return false;
+  const auto is_known = [](const std::string& word) {
+    const std::vector<std::string> one{word};
+    return word.size() == 1 || has_one_of(one, kInvalidWords) || has_one_of(one, kValidWords) ||
+           has_one_of(one, kMaskWords) || has_one_of(one, kLabelWords) ||
+           has_one_of(one, kDisparityWords) || has_one_of(one, kDepthWords) ||
+           has_one_of(one, kMapOwners) || has_one_of(one, kResultWords) ||
+           has_one_of(one, kStepWords) || has_one_of(one, kTruthWords) ||
+           has_one_of(one, kTrueWords) || has_one_of(one, kPlainWords);
+  };
+  return !std::ranges::all_of(name_words(name), is_known);
+}
+
+MapClaim map_claim(const std::string& name) {
+  const std::vector<std::string> words = name_words(name);
+  if (has_one_of(words, kResultWords)) return MapClaim::Computed;
+  if (has_one_of(words, kTrueWords)) return MapClaim::True;
+  return has_one_of(words, kStepWords) ? MapClaim::Computed : MapClaim::None;
+}
+
 std::string region_name(const std::string& name) {
-  constexpr std::string_view prefix = "mask_";
   constexpr std::string_view suffix = "_lowres";
-  if (!name.starts_with(prefix)) return {};
-  std::string region = name.substr(prefix.size());
+  std::string region = beside_mask(name);
   if (region.ends_with(suffix)) region.resize(region.size() - suffix.size());
   const std::vector<std::string> words = name_words(region);
   const bool is_of_a_map = words.empty() || has_one_of(words, kMapOwners) ||

@@ -13,12 +13,28 @@ enum class MapKind { Disparity, Depth, Labels, Valid, Invalid, Region };
 [[nodiscard]] const char* kind_text(MapKind kind);
 
 /// Content according to the words in the name of a file or of its folder: "1_1_Disparity",
-/// "gtDepth_05", "label", "valid_mask". Empty for names without such a word and for names of
-/// results ("disparity_local").
+/// "gtDepth_05", "label", "valid_mask". Empty for names without such a word.
 [[nodiscard]] std::optional<MapKind> map_kind(const std::string& name);
 
-/// "planes" for mask_planes and mask_planes_lowres, as the 2016 benchmark calls a region of the
-/// center view. Empty for other names.
+/// Whether a name is one of truth and says no more: "gt", "ground_truth", "truth", "target".
+/// Numbers of that name are disparity.
+[[nodiscard]] bool is_bare_truth_name(const std::string& name);
+
+/// Whether the name of a map has words that are neither of maps nor of what maps belong to:
+/// "cotton" of "cotton_labels".
+[[nodiscard]] bool names_other_scene(const std::string& name);
+
+/// What the name of a map says of its truth.
+enum class MapClaim {
+  True,     ///< "gt", "true", "ground_truth".
+  None,     ///< Nothing.
+  Computed  ///< "estimate", "error", "confidence"; or "raw", "epi" with no word of truth beside it.
+};
+[[nodiscard]] MapClaim map_claim(const std::string& name);
+
+/// "planes" for mask_planes, mask_planes_lowres, as the 2016 benchmark calls a region of the center
+/// view, and planes_mask. Empty for other names, and for masks that are of a map by their names:
+/// "mask", "mask_center", "disparity_mask", "valid_mask".
 [[nodiscard]] std::string region_name(const std::string& name);
 
 /// Whether a folder of this name may hold maps of any kind: "gt", "ground_truth", "depth".

@@ -88,12 +88,19 @@ RankedSets rank_sets(const std::vector<MapSet>& sets, MapKind kind,
   std::ranges::stable_sort(ranked.fit, [](const MapSet* a, const MapSet* b) {
     const auto rank = [](const MapSet* set) {
       const fs::path file = first_file(*set);
-      return std::tuple(-static_cast<int>(set->entries.size()), is_image_name(file),
+      return std::tuple(set->claim, -static_cast<int>(set->entries.size()), is_image_name(file),
                         has_text_suffix(file));
     };
     return rank(a) < rank(b);
   });
   return ranked;
+}
+
+void tell_equal_names(const MapSet& used, const MapSet& other, ConventionReport& report) {
+  const auto stem = [](const MapSet& set) { return fs::path(set.pattern).stem(); };
+  if (used.claim != other.claim || stem(used) == stem(other)) return;  // or in another form
+  report.warnings.push_back(
+      fmt::format(finding_text("map.equal_names"), used.pattern, other.pattern));
 }
 
 namespace {

@@ -68,14 +68,19 @@ void require_view_size(const std::filesystem::path& path, int height, int width,
 [[nodiscard]] std::vector<MapSet::Entry> entries_to_read(const MapSet& set,
                                                          const SidecarViews& views);
 
-/// Sets of one kind. `fit` holds those that `can_hold` the wanted data: sets of most views first,
-/// then arrays before images, and images before text. `unfit` holds the others.
+/// Sets of one kind. `fit` holds those that `can_hold` the wanted data: sets that claim to be true
+/// first, then those of most views, arrays before images, and images before text. `unfit` holds the
+/// others.
 struct RankedSets {
   std::vector<const MapSet*> fit;
   std::vector<const MapSet*> unfit;
 };
 [[nodiscard]] RankedSets rank_sets(const std::vector<MapSet>& sets, MapKind kind,
                                    bool (*can_hold)(const std::filesystem::path&));
+
+/// Warns that one set is used and another is not whose names claim as much; not if they are forms
+/// of one map.
+void tell_equal_names(const MapSet& used, const MapSet& other, ConventionReport& report);
 
 /// Reads the stored values of a set, of all views or of the only one that the set holds. Pixels of
 /// views without a map are invalid. Empty if no file could be read. Throws Cancelled.

@@ -90,6 +90,9 @@ LabelMeaning name_with_pictures(FoundLabels& found, const std::vector<const MapS
   LabelMeaning meaning = name_numbers(found.maps.numbers, hints);
   found.outcome.tell(meaning.kind, notes);
   if (twin != nullptr) notes.account.use(twin->files(), "label pictures");
+  for (const MapSet* set : sets) {
+    if (set != found.set && set != twin) tell_equal_names(*found.set, *set, notes.report);
+  }
   return meaning;
 }
 

@@ -8,6 +8,8 @@
 #include "engine/io/models/array_maps.h"
 #include "engine/io/models/sidecar_maps/depth_fit.h"
 #include "engine/io/models/sidecar_maps/map_file.h"
+#include "engine/io/models/sidecar_maps/map_places.h"
+#include "engine/io/models/sidecar_maps/scene_files.h"
 #include "engine/io/models/sidecar_maps/sidecar_labels.h"
 
 #include <fmt/format.h>
@@ -50,11 +52,15 @@ StoredMaps read_first(const std::vector<const MapSet*>& sets, const std::string&
   for (const MapSet* set : sets) {
     if (found.set != nullptr) {
       notes.account.leave_out(set->files(), kind + " once more");
+      tell_equal_names(*found.set, *set, notes.report);
       continue;
     }
     SetOutcome outcome;
     found.field = read_value_set(*set, views, outcome, progress);
-    if (!found.field.empty()) found.set = set;
+    if (!found.field.empty()) {
+      found.set = set;
+      notes.report.truth_files = outcome.read;
+    }
     found.scale = outcome.map_scale;
     outcome.tell(kind, notes);
   }
@@ -265,22 +271,32 @@ Image<std::uint8_t> read_fitting_mask(const fs::path& path, const SidecarViews& 
   return mask;
 }
 
-/// Clears pixels of a view; false, and nothing done, if no pixel would be left.
-bool apply(const Image<std::uint8_t>& mask, bool marks_valid, ImageView<std::uint8_t> valid) {
-  const auto keeps = [&](int i) { return (mask.data()[i] != 0) == marks_valid; };
-  const int count = static_cast<int>(mask.size());
-  bool is_left = false;
-  for (int i = 0; i < count && !is_left; ++i) is_left = valid.data[i] != 0 && keeps(i);
-  for (int i = 0; i < count && is_left; ++i) {
+/// Pixels that had a value, and those of them that a mask took away.
+struct MaskedPixels {
+  std::size_t known = 0;
+  std::size_t lost = 0;
+};
+
+/// Clears pixels of a view; nothing is done if no pixel would be left.
+MaskedPixels apply(const Image<std::uint8_t>& mask, bool marks_valid,
+                   ImageView<std::uint8_t> valid) {
+  const auto keeps = [&](std::size_t i) { return (mask.data()[i] != 0) == marks_valid; };
+  MaskedPixels pixels;
+  for (std::size_t i = 0; i < mask.size(); ++i) {
+    pixels.known += valid.data[i] != 0 ? 1 : 0;
+    pixels.lost += valid.data[i] != 0 && !keeps(i) ? 1 : 0;
+  }
+  if (pixels.lost == pixels.known) return pixels;
+  for (std::size_t i = 0; i < mask.size(); ++i) {
     if (!keeps(i)) valid.data[i] = 0;
   }
-  return is_left;
+  return pixels;
 }
 
 void read_validity(const MapSet& set, const SidecarViews& views, const SidecarNotes& notes,
                    DisparityField& field) {
   SetOutcome outcome;
-  const bool marks_valid = set.kind == MapKind::Valid;
+  MaskedPixels all;
   for (const MapSet::Entry& entry : set.entries) {
     const ViewIndex view = views.grid().view_at(entry.view);
     if (!field.contains(view)) {
@@ -290,16 +306,19 @@ void read_validity(const MapSet& set, const SidecarViews& views, const SidecarNo
     try {
       const Image<std::uint8_t> mask = read_fitting_mask(entry.file, views);
       field.require_mask();
-      if (!apply(mask, marks_valid, field.valid.view(view))) {
+      const MaskedPixels one = apply(mask, set.kind == MapKind::Valid, field.valid.view(view));
+      if (one.lost == one.known) {
         throw IoError(entry.file,
                       "this mask would leave no pixel with a disparity; remove or replace it");
       }
+      all = {all.known + one.known, all.lost + one.lost};
       outcome.read.push_back(entry.file);
     } catch (const IoError& error) {
       outcome.failed.push_back(entry.file);
       if (outcome.first_error.empty()) outcome.first_error = error.what();
     }
   }
+  outcome.note = masked_text(set.pattern, all.lost, all.known);
   outcome.tell(kind_text(set.kind), notes);
 }
 
@@ -352,6 +371,19 @@ void set_aside(std::vector<MapSet>& sets, const SidecarNotes& notes) {
   std::erase_if(sets, [](const MapSet& set) { return set.entries.empty(); });
 }
 
+/// Where they would be the only disparity.
+void tell_computed(const std::vector<fs::path>& files, ConventionReport& report) {
+  const auto is_disparity = [](const fs::path& file) {
+    const bool is_result = own_file(file) != OwnFile::None;
+    return map_kind(file.stem().string()) == MapKind::Disparity && can_hold_values(file) &&
+           !is_result;
+  };
+  const auto first = std::ranges::find_if(files, is_disparity);
+  if (first == files.end()) return;
+  report.warnings.push_back(
+      fmt::format(finding_text("map.computed_name"), first->filename().string()));
+}
+
 }  // namespace
 
 std::optional<MapUnit> stated_unit(const fs::path& folder, FileUsage& account) {
@@ -374,21 +406,52 @@ SidecarMaps read_sidecar_maps(const SidecarViews& views, const SidecarNotes& not
   FoundMapSets maps = find_maps(views.files, views.folder, views.is_own);
   SidecarMaps found{{}, {}, views.camera};
   for (const fs::path& folder : maps.folders) notes.account.add_folder(folder);
-  if (maps.sets.empty()) return found;
+  if (maps.sets.empty() && maps.computed.empty()) return found;
   progress.step("reading ground truth");
   set_aside(maps.sets, notes);
+  for (const fs::path& file : maps.computed) {
+    const bool is_result = own_file(file) != OwnFile::None;
+    notes.account.leave_out({file}, is_result ? "results" : "maps of methods, by their names");
+  }
   settle_fractional_labels(maps.sets, views, notes);
   SidecarDisparity disparity =
       read_sidecar_disparity(maps.sets, views, notes, progress.part(0, 0.6));
   found.truth.field = std::move(disparity.field);
   found.camera = disparity.camera;
   found.is_sign_assumed = disparity.is_sign_assumed;
+  if (found.truth.field.empty()) tell_computed(maps.computed, notes.report);
   if (!views.needs_truth) return found;
   SidecarLabels labels = read_sidecar_labels(maps.sets, views, notes, progress.part(0.6, 0.9));
   found.truth.labels = std::move(labels.labels);
   found.label_infos = std::move(labels.infos);
   read_sidecar_masks(maps.sets, views, notes, found.truth);
   return found;
+}
+
+std::vector<LabelInfo> add_maps_named_after(const fs::path& file, const OpenOptions& options,
+                                            SceneParts& parts, const SidecarNotes& notes,
+                                            const Progress& progress) {
+  const SceneFiles own({file.stem().string()}, light_fields_beside(file), false);
+  const auto is_own = [&](const fs::path& map) {
+    return map.filename() != file.filename() && own.contains(map);
+  };
+  const ViewFiles views{grid_of(parts.samples), {}};
+  SidecarMaps beside =
+      read_sidecar_maps({.files = views,
+                         .folder = file.has_parent_path() ? file.parent_path() : fs::path("."),
+                         .samples = parts.samples,
+                         .camera = parts.info.camera,
+                         .map_views = options.map_views(),
+                         .needs_truth = options.needs_truth,
+                         .is_own = is_own},
+                        notes, progress);
+  if (parts.truth.labels.empty()) parts.truth.labels = std::move(beside.truth.labels);
+  parts.truth.regions.merge(beside.truth.regions);
+  if (beside.truth.field.empty()) return std::move(beside.label_infos);
+  parts.truth.field = std::move(beside.truth.field);
+  parts.expected.is_truth_sign_assumed = beside.is_sign_assumed;
+  parts.info.camera = beside.camera;
+  return std::move(beside.label_infos);
 }
 
 void apply_masks_beside(const SidecarViews& views, const SidecarNotes& notes,

@@ -26,6 +26,13 @@ struct SidecarMaps {
 [[nodiscard]] SidecarMaps read_sidecar_maps(const SidecarViews& views, const SidecarNotes& notes,
                                             const Progress& progress);
 
+/// Adds disparity, labels and masks from files called after a light field that is one file
+/// ("cotton_disparity.npy" beside "cotton.h5") to `parts`, which hold no disparity. Returns names
+/// and colors of the labels. Throws Cancelled.
+std::vector<LabelInfo> add_maps_named_after(const std::filesystem::path& file,
+                                            const OpenOptions& options, SceneParts& parts,
+                                            const SidecarNotes& notes, const Progress& progress);
+
 /// Unit according to `kBaselineFile`, which is recorded as used; empty without such a file.
 [[nodiscard]] std::optional<MapUnit> stated_unit(const std::filesystem::path& folder,
                                                  FileUsage& account);

@@ -51,3 +51,11 @@ endif()
 expect("two maps" 1 ERR "2 were found \\(left, right\\)" ARGS show two.h5 -o two.png)
 expect("two maps to convert" 1 ERR "2 were found \\(left, right\\)" ARGS convert two.h5 two.pfm)
 expect("error without a truth" 2 ERR "--truth" ARGS show one.h5 -o e2.png --what error)
+
+# An estimate where the truth is looked for is not judged by itself.
+file(MAKE_DIRECTORY "${WORK}/n")
+expect("a bare light field" 0 ERR "holds no disparities" ARGS convert lf.h5 n/lf.npy)
+expect("an estimate named as truth" 0 ERR "will be read as ground truth of n/lf.npy"
+       ARGS estimate epi_l n/lf.npy -o n/lf_disparity.npy)
+expect("a judge of itself" 1 ERR "is read as the ground truth of n/lf.npy itself"
+       ARGS evaluate n/lf_disparity.npy --truth n/lf.npy)

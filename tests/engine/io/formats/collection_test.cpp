@@ -79,6 +79,14 @@ class CollectionTest : public QObject {
     fs::create_directories(root());
   }
 
+  void scenesNamedLikeFoldersOfViews_areScenes() {
+    for (const char* name : {"lf", "box"}) {
+      write_grid(name);
+      write_text(root() / name / "gt_disparity.pfm", "");
+    }
+    QCOMPARE(summary(), (QStringList{"box:image_grid", "lf:image_grid"}));
+  }
+
   void everyForm_isFoundAtAnyDepthAndDescribedByItsHeaders() {
     write_archive("a/deep/down/one");
     io::write_benchmark_folder(made("b"), scene_, Progress(1));

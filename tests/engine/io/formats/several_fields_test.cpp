@@ -111,6 +111,46 @@ class SeveralFieldsTest : public QObject {
   }
   void init() { folder_ = std::make_unique<QTemporaryDir>(); }
 
+  void numbersOfNames_pairViewsWithMaps_data() {
+    QTest::addColumn<int>("first");
+    QTest::addColumn<int>("count");
+    QTest::newRow("two from 0") << 0 << 2;
+    QTest::newRow("two from 1") << 1 << 2;
+    QTest::newRow("three") << 0 << 3;  // whose maps alone would be joined to a list
+    QTest::newRow("over ten") << 9 << 3;
+  }
+  void numbersOfNames_pairViewsWithMaps() {
+    QFETCH(int, first);
+    QFETCH(int, count);
+    {
+      io::AtomicFile target(path("numbered.h5"));
+      io::Hdf5Output file(target);
+      for (int i = 0; i < count; ++i) {
+        const Scene& scene = scenes_[static_cast<std::size_t>(i % 2)];
+        const std::string number = std::to_string(first + i);
+        const auto views = lengths(scene, false);
+        file.add_dataset<std::uint8_t>("LF" + number, views, "", "");
+        file.write("LF" + number, {io::Hdf5Shape(5, 0), views}, bytes_of(scene).data());
+        const io::Hdf5Shape map{views[2], views[3]};
+        file.add_dataset<float>("disparity" + number, map, "", "");
+        file.write("disparity" + number, {{0, 0}, map},
+                   scene.truth->field.disparity.view({1, 2}).data);
+      }
+      file.close();
+      target.commit();
+    }
+
+    // HDF5 lists LF10 before LF9.
+    for (int frame = 0; frame < count; ++frame) {
+      const Scene read = open(path("numbered.h5"), frame);
+      const std::size_t index = has_same_samples(read, scenes_[0]) ? 0 : 1;
+      QVERIFY2(read.truth->field.contains({1, 2}), describe(read.convention).c_str());
+      const float* expected = scenes_[index].truth->field.disparity.view({1, 2}).data;
+      const auto map = read.truth->field.disparity.view({1, 2});
+      QVERIFY(std::equal(map.data, map.data + map.size(), expected));
+    }
+  }
+
   void fileOfSeveral_opensTheFirstOrTheOneNumbered_data() {
     QTest::addColumn<bool>("is_stack");
     QTest::newRow("stack") << true;

@@ -10,6 +10,7 @@
 #include "tests/test_main.h"
 
 #include <QTemporaryDir>
+#include <opencv2/imgcodecs.hpp>
 
 #include <cmath>
 #include <limits>
@@ -122,6 +123,30 @@ class MapFormsTest : public QObject {
       QCOMPARE(read.valid.data()[i] != 0, std::isfinite(maps.data()[i]));
       if (i != 8) QCOMPARE(read.disparity.data()[i], maps.data()[i]);
     }
+  }
+
+  void pagesOfATiff_areViewsRowByRow() {
+    ViewStack<float> maps = sample_maps(kGrid);
+    std::vector<cv::Mat> pages;
+    for (int i = 0; i < kGrid.count(); ++i) {
+      pages.emplace_back(kHeight, kWidth, CV_32F, maps.view(maps.view_at(i)).data);
+    }
+    const auto write = [&](const QString& name) {
+      QVERIFY(cv::imwritemulti(path(name).string(), pages));
+    };
+    write("all.tif");
+    const DisparityField read = io::read_disparity_map(path("all.tif"), kGrid);
+    QCOMPARE(read.disparity.grid(), kGrid);
+    QCOMPARE(read.disparity.view({2, 3}).at(1, 1), maps.view({2, 3}).at(1, 1));
+
+    pages.resize(4);
+    write("four.tif");
+    QVERIFY_THROWS_EXCEPTION(IoError, (void)io::read_disparity_map(path("four.tif"), kGrid));
+
+    pages.resize(2);  // a reduced copy
+    pages[1] = pages[1](cv::Rect(0, 0, kWidth / 2, kHeight / 2)).clone();
+    write("reduced.tif");
+    QCOMPARE(io::read_disparity_map(path("reduced.tif"), kGrid).disparity.first(), kGrid.center());
   }
 
   void mapsBesideDisparity_areReadBack_data() {

@@ -31,8 +31,8 @@ class MapNameTest : public QObject {
     }
     add("invalid_3_3", MapKind::Invalid);
     add("mask_planes_lowres", MapKind::Region);
-    for (const char* name : {"1_1", "input_Cam000", "display_1", "out_03_04", "disparity_local",
-                             "5_5_disparity_estimated", "maskenball_3"}) {
+    add("object_mask", MapKind::Region);
+    for (const char* name : {"1_1", "input_Cam000", "display_1", "out_03_04", "maskenball_3"}) {
       QTest::newRow(name) << name << -1;
     }
   }
@@ -45,7 +45,42 @@ class MapNameTest : public QObject {
     QCOMPARE(found ? static_cast<int>(*found) : -1, kind);
   }
 
+  void words_tellWhatIsTrue_data() {
+    QTest::addColumn<QString>("name");
+    QTest::addColumn<int>("claim");
+    const auto add = [](const char* name, io::MapClaim claim) {
+      QTest::newRow(name) << name << static_cast<int>(claim);
+    };
+    for (const char* name : {"gt_disparity", "disparityTrue", "Ground_Truth", "gtDisp_05",
+                             "disparity_gt_raw", "gt_disp_lowres_Cam007"}) {
+      add(name, io::MapClaim::True);
+    }
+    for (const char* name : {"disparity", "disp_map", "1_1_depth"}) add(name, io::MapClaim::None);
+    for (const char* name :
+         {"disparity_local", "5_5_disparity_estimated", "disp_est", "gt_disparity_error",
+          "disparity_raw", "disparity_epi_l", "disparity_confidence"}) {
+      add(name, io::MapClaim::Computed);
+    }
+  }
+  void words_tellWhatIsTrue() {
+    QFETCH(QString, name);
+    QFETCH(int, claim);
+
+    QCOMPARE(static_cast<int>(io::map_claim(name.toStdString())), claim);
+  }
+
+  void wordsOfAnotherScene_areSeen() {
+    QVERIFY(io::names_other_scene("cotton_labels"));
+    for (const char* name : {"labels", "gt_disparity", "disparity_epi_l", "object_mask", "05_03"}) {
+      QVERIFY2(!io::names_other_scene(name), name);
+    }
+  }
+
   void region_isNamedAfterItsMask() {
+    QCOMPARE(io::region_name("planes_mask"), std::string("planes"));
+    QCOMPARE(io::region_name("object_mask_03_03"), std::string("object"));
+    QCOMPARE(io::region_name("mask_layer2"), std::string("layer2"));
+    QCOMPARE(io::region_name("disparity_mask"), std::string());
     QCOMPARE(io::region_name("mask_planes_lowres"), std::string("planes"));
     QCOMPARE(io::region_name("mask_fine_surrounding"), std::string("fine_surrounding"));
     QCOMPARE(io::region_name("mask_4_4"), std::string());
