@@ -172,10 +172,8 @@ JobPanel::JobPanel(QWidget* parent)
   rows->setLayout(layout_);
   layout_->setContentsMargins(0, 0, 0, 0);
   layout_->setSpacing(theme::kSpacing);
-  scroll_->setFrameShape(QFrame::NoFrame);
-  scroll_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  set_up_scrolling(scroll_);
   scroll_->setFocusPolicy(Qt::NoFocus);
-  scroll_->setWidgetResizable(true);
   scroll_->setWidget(rows);
   scroll_->hide();
   auto* all = new QVBoxLayout(this);
@@ -207,10 +205,7 @@ void JobPanel::addJob(quint64 id, const QString& title) {
   row.stage->setObjectName(name + ".stage");
   row.stage->setFullText(tr("waiting"));
 
-  auto* grid = new QGridLayout(row.widget);
-  grid->setContentsMargins(0, 0, 0, 0);
-  grid->setHorizontalSpacing(theme::kSpacing);
-  grid->setVerticalSpacing(kRowSpacing);
+  auto* grid = make_grid(row.widget, theme::kSpacing, kRowSpacing);
   grid->addWidget(title_label, 0, 0);
   grid->addWidget(row.finish, 0, 1, 3, 1, Qt::AlignVCenter);
   grid->addWidget(row.cancel, 0, 2, 3, 1, Qt::AlignVCenter);

@@ -87,8 +87,6 @@ class MethodPanel : public QWidget {
   void changeEvent(QEvent* event) override;
 
  private:
-  [[nodiscard]] QBoxLayout* layViews();
-  [[nodiscard]] QBoxLayout* layRun();
   void connectControls();
   void showMethod(int index);
   void updateReset() { reset_->setEnabled(!form_->modifiedValues().empty()); }

@@ -15,7 +15,6 @@
 #include <QMouseEvent>
 #include <QPainter>
 #include <QPolygonF>
-#include <QSignalBlocker>
 
 #include <algorithm>
 #include <cmath>
@@ -84,11 +83,6 @@ void StatisticsPanel::addThreshold(QGridLayout& layout) {
   auto* row = make_row({label, threshold_, kRoom}, {.spacing = theme::kSpacing});
   layout.addLayout(row, 4, 0, 1, static_cast<int>(names_.size()));
   connect(threshold_, &NumberSpin::valueChanged, this, &StatisticsPanel::badThresholdEdited);
-}
-
-void StatisticsPanel::setBadThreshold(double threshold_px) {
-  const QSignalBlocker blocker(threshold_);
-  threshold_->setValue(threshold_px);
 }
 
 void StatisticsPanel::setSummary(const Summary& summary) {

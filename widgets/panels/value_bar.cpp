@@ -11,7 +11,6 @@
 #include <QGridLayout>
 #include <QPixmap>
 #include <QPushButton>
-#include <QSignalBlocker>
 #include <QSlider>
 
 #include <cmath>
@@ -140,13 +139,11 @@ TonePanel::Row TonePanel::addRow(int place, const Quality& quality) {
   layout->addWidget(row.slider, place, 1);
   layout->addWidget(row.field, place, 2);
   connect(row.slider, &QSlider::valueChanged, this, [this, row](int value) {
-    const QSignalBlocker blocker(row.field);
-    row.field->setValue(value * kSliderStep);
+    Quietly(row.field)->setValue(value * kSliderStep);
     emit toneEdited(tone());
   });
   connect(row.field, &NumberSpin::valueChanged, this, [this, row](double value) {
-    const QSignalBlocker blocker(row.slider);
-    row.slider->setValue(tone_step(value));
+    Quietly(row.slider)->setValue(tone_step(value));
     emit toneEdited(tone());
   });
   return row;
@@ -181,10 +178,8 @@ void TonePanel::addReach() {
 }
 
 void TonePanel::showRow(const Row& row, double value) {
-  const QSignalBlocker slider_blocker(row.slider);
-  const QSignalBlocker field_blocker(row.field);
-  row.slider->setValue(tone_step(value));
-  row.field->setValue(value);
+  Quietly(row.slider)->setValue(tone_step(value));
+  Quietly(row.field)->setValue(value);
 }
 
 void TonePanel::setTone(const render::Tone& shown) {

@@ -528,7 +528,7 @@ void AnnotateController::addToolCommands() {
                              .enabled = [this] { return hasDocument(); },
                              .checked = [this, tool = row.tool] { return tool_ == tool; },
                              .choice = "annotate.tool"});
-    panel_->addAction(action, "button.annotate." + row.id);
+    panel_->addAction(action);
   }
 }
 
@@ -595,7 +595,7 @@ void AnnotateController::addCommands() {
   addSizeCommands();
   panel_->addGap();
   for (const char* id : {"annotate.undo", "annotate.redo"}) {
-    panel_->addAction(bench_.commands.find(id), QString("button.%1").arg(id));
+    panel_->addAction(bench_.commands.find(id));
   }
 }
 

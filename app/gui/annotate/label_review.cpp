@@ -76,7 +76,7 @@ void LabelReviewController::addCommands() {
                                            .run = [this, by = row.step] { step(by); },
                                            .section = kCheckSection,
                                            .enabled = has_document});
-    panel_->addAction(action, QString("button.%1").arg(row.id));
+    panel_->addAction(action);
   }
 }
 
@@ -322,7 +322,7 @@ void StripController::addCommands(LabelReviewPanel* panel) {
        .run = [this] { open(); },
        .section = kCheckSection,
        .enabled = [this] { return bench_.labels.current() != 0; }});
-  panel->addAction(action, "button.review.strip");
+  panel->addAction(action);
 }
 
 void StripController::open() {

@@ -675,7 +675,7 @@ void SegmentController::addOverlayCommands() {
       overlay.setQuantity(overlay.quantity() == quantity ? Quantity::View : quantity);
     };
     QAction* action = bench_.commands.add(command);
-    panel_->addOverlay(action, QString("button.%1").arg(row.id));
+    panel_->addOverlay(action);
   }
 }
 
@@ -685,7 +685,7 @@ void SegmentController::addCommands() {
   addSmoothingCommands();
   addOverlayCommands();
   for (const char* id : {"segment.live", "segment.update", "segment.all"}) {
-    panel_->addAction(bench_.commands.find(id), QString("button.%1").arg(id));
+    panel_->addAction(bench_.commands.find(id));
   }
 }
 

@@ -88,7 +88,7 @@ void RegionController::addCommands(RegionBar& bar) {
                        .run = [this] { choose(JudgedPixels::Whole); },
                        .section = compare_section::kRange,
                        .enabled = [this] { return now().pixels != JudgedPixels::Whole; }});
-  bar.addAction(draw, "region.draw");
+  bar.addAction(draw);
 }
 
 void RegionController::connectTool() {

@@ -86,11 +86,7 @@ ReadingQuestion::ReadingQuestion(const io::Undecided& question, QWidget* parent)
   note->setPalette(theme::text_palette(theme::muted_text(palette())));
   layout->addWidget(note);
   layout->addStretch(1);
-  auto* answer = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
-  answer->addButton(tr("Open"), QDialogButtonBox::AcceptRole)->setObjectName("readingQuestion.ok");
-  layout->addWidget(answer);
-  connect(answer, &QDialogButtonBox::accepted, this, &QDialog::accept);
-  connect(answer, &QDialogButtonBox::rejected, this, &QDialog::reject);
+  layout->addWidget(make_answers(this, "readingQuestion.ok", tr("Open")));
   layout->activate();
   resize(kQuestionWidth, layout->heightForWidth(kQuestionWidth));
 }
