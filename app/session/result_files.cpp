@@ -4,6 +4,7 @@
 #include "app/session/command_line.h"
 #include "app/session/judge.h"
 #include "app/session/load_scene.h"
+#include "app/session/scene_summary.h"
 #include "engine/core/disparity_field.h"
 #include "engine/core/error.h"
 #include "engine/core/finding.h"
@@ -513,17 +514,8 @@ namespace {
 
 // Of one px of disparity without a camera: what is seen is a quarter as deep as it is wide.
 double z_per_px(const DisparityView& view) {
-  const auto& map = view.disparity;
-  double min = std::numeric_limits<double>::infinity();
-  double max = -min;
-  for (int y = 0; y < map.height; ++y) {
-    for (int x = 0; x < map.width; ++x) {
-      if (!view.is_valid(y, x)) continue;
-      min = std::min<double>(min, map.at(y, x));
-      max = std::max<double>(max, map.at(y, x));
-    }
-  }
-  return max > min ? 0.25 * map.width / (max - min) : 1;
+  const double length = extent(view).length();
+  return length > 0 ? 0.25 * view.disparity.width / length : 1;
 }
 
 }  // namespace

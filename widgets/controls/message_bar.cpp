@@ -78,6 +78,7 @@ MessageBar::MessageBar(QWidget* parent)
     emit closed();
   });
   connect(&timer_, &QTimer::timeout, this, &MessageBar::dismiss);
+  theme::follow_palette(this, this, [this] { updateIcon(); });
   hide();
 }
 
@@ -132,11 +133,6 @@ void MessageBar::updateIcon() {
   icon_->setPixmap(themed_icon(names[static_cast<int>(severity_)]).pixmap(16, 16));
 }
 
-void MessageBar::changeEvent(QEvent* event) {
-  QWidget::changeEvent(event);
-  if (event->type() == QEvent::PaletteChange) updateIcon();
-}
-
 namespace {
 
 constexpr int kBarSteps = 1000;
@@ -181,7 +177,7 @@ JobPanel::JobPanel(QWidget* parent)
   all->addWidget(idle_, 0, Qt::AlignTop);
   all->addWidget(scroll_);
   fitHeight();
-  updateColors();
+  theme::mute(idle_);
 }
 
 void JobPanel::addJob(quint64 id, const QString& title) {
@@ -214,8 +210,8 @@ void JobPanel::addJob(quint64 id, const QString& title) {
   layout_->addWidget(row.widget);
   connect(row.finish, &QToolButton::clicked, this, [this, id] { emit finishRequested(id); });
   connect(row.cancel, &QToolButton::clicked, this, [this, id] { emit cancelRequested(id); });
+  theme::mute(row.stage);
   rows_.emplace(id, row);
-  updateColors();
   showRows();
 }
 
@@ -276,14 +272,7 @@ void JobPanel::fitHeight() {
 
 void JobPanel::changeEvent(QEvent* event) {
   QWidget::changeEvent(event);
-  if (event->type() == QEvent::PaletteChange) updateColors();
   if (event->type() == QEvent::FontChange) fitHeight();
-}
-
-void JobPanel::updateColors() {
-  const QPalette quiet = theme::text_palette(theme::muted_text(palette()));
-  idle_->setPalette(quiet);
-  for (const auto& [id, row] : rows_) row.stage->setPalette(quiet);
 }
 
 }  // namespace episcope

@@ -7,7 +7,6 @@
 #include "widgets/controls/theme.h"
 #include "widgets/controls/tool_button.h"
 
-#include <QEvent>
 #include <QGridLayout>
 #include <QLabel>
 #include <QRegularExpression>
@@ -75,6 +74,7 @@ InfoPanel::InfoPanel(QWidget* parent)
   auto* layout = make_column(this, {title_, {scroll_, 1}}, {.spacing = 4});
   layout->addWidget(conventions_, 0, Qt::AlignLeft);
   setInfo({}, {}, {});
+  theme::follow_palette(this, this, [this] { rebuild(); });
 }
 
 void InfoPanel::setInfo(const QString& title, const std::vector<InfoRow>& rows,
@@ -87,11 +87,6 @@ void InfoPanel::setInfo(const QString& title, const std::vector<InfoRow>& rows,
   conventions_->setVisible(!conventions ||
                            !std::ranges::count(warnings, conventions, &InfoWarning::action));
   rebuild();
-}
-
-void InfoPanel::changeEvent(QEvent* event) {
-  QWidget::changeEvent(event);
-  if (event->type() == QEvent::PaletteChange) rebuild();
 }
 
 // A short line with the whole text behind its arrow; else the text, of which a click shows all.

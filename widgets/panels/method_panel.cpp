@@ -11,7 +11,6 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDialogButtonBox>
-#include <QEvent>
 #include <QGridLayout>
 #include <QLabel>
 #include <QListWidget>
@@ -83,7 +82,8 @@ MethodPanel::MethodPanel(QWidget* parent)
   connectControls();
   setRunning(false);
   setMethods({});
-  updateColors();
+  theme::mute(reference_);
+  theme::mute(live_status_);
 }
 
 void MethodPanel::connectControls() {
@@ -198,17 +198,6 @@ QSize MethodPanel::sizeHint() const {
 RunRequest MethodPanel::request() const {
   if (shown_ < 0) return {};
   return {methods_[shown_].id, form_->values(), all_views_->isEnabled() && all_views_->isChecked()};
-}
-
-void MethodPanel::changeEvent(QEvent* event) {
-  QWidget::changeEvent(event);
-  if (event->type() == QEvent::PaletteChange) updateColors();
-}
-
-void MethodPanel::updateColors() {
-  for (QLabel* label : std::initializer_list<QLabel*>{reference_, live_status_}) {
-    label->setPalette(theme::text_palette(theme::muted_text(palette())));
-  }
 }
 
 namespace {

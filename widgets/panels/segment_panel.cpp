@@ -7,7 +7,6 @@
 #include "widgets/controls/theme.h"
 #include "widgets/controls/tool_button.h"
 
-#include <QEvent>
 #include <QHBoxLayout>
 #include <QScrollArea>
 #include <QSignalBlocker>
@@ -58,6 +57,7 @@ SegmentPanel::SegmentPanel(QWidget* parent)
   connect(all_views_, &QCheckBox::toggled, this, &SegmentPanel::keepsAllViewsEdited);
   setSettingsVisible(false);
   setNote({});
+  theme::follow_palette(this, this, [this] { showMood(); });
 }
 
 QWidget* SegmentPanel::makeSettings() {
@@ -111,11 +111,6 @@ void SegmentPanel::showMood() {
   if (mood_ == ChipMood::Stale || mood_ == ChipMood::Hint) color = theme::warning_text(palette());
   if (mood_ == ChipMood::Failed) color = theme::error_text(palette());
   chip_->setPalette(theme::text_palette(color));
-}
-
-void SegmentPanel::changeEvent(QEvent* event) {
-  QWidget::changeEvent(event);
-  if (event->type() == QEvent::PaletteChange) showMood();
 }
 
 void SegmentPanel::setParameters(const std::vector<ParameterDescription>& parameters) {

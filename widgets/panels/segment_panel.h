@@ -67,9 +67,6 @@ class SegmentPanel : public QWidget {
   void keepsAllViewsEdited();
   void smoothingEdited(double smoothing_px);
 
- protected:
-  void changeEvent(QEvent* event) override;
-
  private:
   QWidget* makeSettings();
   QLayout* makeSmoothing();

@@ -48,12 +48,8 @@ class StatisticsPanel : public QWidget {
   void rangeEdited(episcope::Interval range);
   void badThresholdEdited(double threshold_px);
 
- protected:
-  void changeEvent(QEvent* event) override;
-
  private:
   void addThreshold(QGridLayout& layout);
-  void updateColors();
 
   ElidedLabel* title_;
   HistogramView* histogram_;

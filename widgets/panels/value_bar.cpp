@@ -7,7 +7,6 @@
 #include "widgets/controls/theme.h"
 #include "widgets/controls/tool_button.h"
 
-#include <QEvent>
 #include <QGridLayout>
 #include <QPixmap>
 #include <QPushButton>
@@ -70,6 +69,7 @@ ValueBar::ValueBar(QWidget* parent)
   make_row(this, {swatch_, {values_, 1}, status_},
            {.margins = {theme::kMargin, 2, theme::kMargin, 2}, .spacing = theme::kSpacing});
   setReading(std::nullopt);
+  theme::follow_palette(this, this, [this] { updateColors(); });
 }
 
 void ValueBar::setReading(const std::optional<PixelReading>& reading) {
@@ -80,11 +80,6 @@ void ValueBar::setReading(const std::optional<PixelReading>& reading) {
   swatch_->setPixmap(swatch);
   has_reading_ = reading.has_value();
   updateColors();
-}
-
-void ValueBar::changeEvent(QEvent* event) {
-  QWidget::changeEvent(event);
-  if (event->type() == QEvent::PaletteChange) updateColors();
 }
 
 void ValueBar::updateColors() {
@@ -173,7 +168,7 @@ void TonePanel::addReach() {
                  this));
   reach->setTextFormat(Qt::PlainText);
   reach->setWordWrap(true);
-  reach->setPalette(theme::text_palette(theme::muted_text(palette())));
+  theme::mute(reach);
   qobject_cast<QGridLayout*>(layout())->addWidget(reach, kButtonRow + 1, 0, 1, 3);
 }
 

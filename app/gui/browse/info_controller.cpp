@@ -132,7 +132,7 @@ PatternPanel::PatternPanel(const QString& path, QWidget* parent)
       this);
   help->setTextFormat(Qt::PlainText);
   help->setWordWrap(true);
-  help->setPalette(theme::text_palette(theme::muted_text(palette())));
+  theme::mute(help);
   summary_->setTextFormat(Qt::PlainText);
   summary_->setWordWrap(true);
   names_->setHeaderLabels({tr("File"), tr("Row"), tr("Column"), tr("Number"), tr("View")});

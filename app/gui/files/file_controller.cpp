@@ -104,7 +104,7 @@ BuiltinDialog::BuiltinDialog(QWidget* parent)
   listScenes();
   form_->setParameters(random_parameters());
   written_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-  written_->setPalette(theme::text_palette(theme::muted_text(palette())));
+  theme::mute(written_);
   auto* answers = make_answers(this, "builtin.open", tr("Open"));
   make_column(this, {{scenes_, 1}, form_, written_, answers}, {.margins = kStyleMargins});
   connect(scenes_, &QListWidget::itemDoubleClicked, this, &QDialog::accept);

@@ -83,7 +83,7 @@ ReadingQuestion::ReadingQuestion(const io::Undecided& question, QWidget* parent)
   if (auto* first = buttons_->button(0)) first->setChecked(true);
   auto* note =
       paragraph(tr("Your choice is remembered for this file; “Conventions…” changes it."), this);
-  note->setPalette(theme::text_palette(theme::muted_text(palette())));
+  theme::mute(note);
   layout->addWidget(note);
   layout->addStretch(1);
   layout->addWidget(make_answers(this, "readingQuestion.ok", tr("Open")));
