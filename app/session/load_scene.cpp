@@ -13,6 +13,7 @@
 #include "engine/core/text.h"
 #include "engine/core/version.h"
 #include "engine/io/base/atomic_file.h"
+#include "engine/io/base/files.h"
 #include "engine/io/base/hdf5_file.h"
 #include "engine/io/formats/write_scene.h"
 #include "engine/io/models/reader.h"
@@ -206,8 +207,7 @@ void store_in_cache(const std::string& input, const Scene& scene,
   const scenes::BuiltinRequest request = scenes::read_request(id);
   if (!is_worth_keeping(request)) return;
   const SceneCache cache(cache_folder);
-  std::error_code ignored;
-  if (!std::filesystem::exists(cache.place(request.scene, request.options), ignored)) {
+  if (!io::is_there(cache.place(request.scene, request.options))) {
     cache.write(request.scene, request.options, scene, progress);
   }
 }
@@ -279,8 +279,7 @@ std::optional<Scene> SceneCache::read(const std::string& id, const scenes::Rende
 std::optional<ViewStack<std::uint8_t>> SceneCache::read_samples(
     const std::string& id, const scenes::RenderOptions& options, const Progress& progress) const {
   const std::filesystem::path path = place(id, options) / "lf.h5";
-  std::error_code ignored;
-  if (folder_.empty() || !std::filesystem::exists(path, ignored)) return std::nullopt;
+  if (folder_.empty() || !io::is_there(path)) return std::nullopt;
   try {
     const io::Hdf5Input file(path);
     ViewStack<std::uint8_t> stack(options.grid, options.height, options.width, options.channels);
@@ -333,8 +332,7 @@ fs::path place_of(const capture::DemoOptions& options, const fs::path& cache) {
 
 // The text with the commands is written last.
 bool is_whole(const fs::path& folder) {
-  std::error_code ignored;
-  return fs::exists(folder / "readme.txt", ignored);
+  return io::is_there(folder / "readme.txt");
 }
 
 // Returns whether the folder is there, which may have been made meanwhile.

@@ -18,6 +18,7 @@
 #include "engine/core/parameter.h"
 #include "engine/core/scene.h"
 #include "engine/core/text.h"
+#include "engine/io/base/files.h"
 #include "engine/io/base/hdf5_file.h"
 #include "engine/io/base/json.h"
 #include "engine/io/models/labels/label_import.h"
@@ -287,8 +288,7 @@ void add_project_scene(const ProjectScene& scene, bool is_shown, FileInfo& info)
                   gone(has_source), has_strokes ? ", with strokes" : ""));
   Json results = Json::array();
   for (const ProjectResult& result : scene.results) {
-    std::error_code ignored;
-    const bool exists = fs::exists(result.file, ignored);
+    const bool exists = io::is_there(result.file);
     results.push_back(
         Json::object({{"name", result.name}, {"file", result.file.string()}, {"exists", exists}}));
     info.lines.emplace_back("  result",
@@ -341,8 +341,7 @@ FileInfo describe_pose(const std::string& file) {
   const capture::SolvedPose& solved = story.solved;
   const auto outliers =
       std::ranges::count_if(solved.pairs, [](const auto& pair) { return pair.is_outlier; });
-  std::error_code ignored;
-  const bool has_mesh = fs::exists(story.mesh, ignored);
+  const bool has_mesh = io::is_there(story.mesh);
   FileInfo info{{}, {{"input", file}, {"kind", "pose"}}};
   Json& json = info.json;
   json["mesh"] = story.mesh.string();
@@ -382,8 +381,7 @@ bool is_pose(const fs::path& path) {
 /// Describes a result, labels, also those of the archive, a project of the window, a camera or a
 /// pose. Nothing for what else there is, such as light fields. Throws IoError for a damaged file.
 std::optional<FileInfo> describe_file(const std::string& input, Reads reads) {
-  std::error_code ignored;
-  if (!builtin_scene_id(input).empty() || !fs::is_regular_file(input, ignored)) return {};
+  if (!builtin_scene_id(input).empty() || !io::is_file(input)) return {};
   if (io::is_segmentation_file(input)) return describe_labels(input);
   if (reads == Reads::AsItIs && is_label_archive(input)) return describe_label_archive(input);
   if (names_project(input)) return describe_project(input);
