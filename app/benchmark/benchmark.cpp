@@ -103,8 +103,7 @@ std::string submission_name(const fs::path& folder) {
 
 /// Throws IoError unless `folder` is a folder.
 void check_submission(const fs::path& folder) {
-  std::error_code ignored;
-  if (fs::is_directory(folder, ignored)) return;
+  if (io::is_folder(folder)) return;
   throw IoError(folder, "is not a folder; a submission is a folder of maps named after the scenes");
 }
 

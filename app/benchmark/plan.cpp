@@ -191,8 +191,7 @@ bool is_same(const BenchmarkPlan& a, const BenchmarkPlan& b) {
 }
 
 std::optional<BenchmarkPlan> plan_in(const fs::path& folder) {
-  std::error_code ignored;
-  if (!fs::exists(folder / BenchmarkPlan::kFileName, ignored)) return std::nullopt;
+  if (!io::is_there(folder / BenchmarkPlan::kFileName)) return std::nullopt;
   return read_plan_file(folder / BenchmarkPlan::kFileName);
 }
 

@@ -4,6 +4,7 @@
 #include "app/session/judge.h"
 #include "engine/core/error.h"
 #include "engine/core/version.h"
+#include "engine/io/base/files.h"
 #include "engine/io/base/json.h"
 
 #include <nlohmann/json.hpp>
@@ -147,8 +148,7 @@ void RunRecords::keep(BenchmarkRecord record) {
 }
 
 void RunRecords::read(const std::filesystem::path& log) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(log, ignored)) return;
+  if (!io::is_there(log)) return;
   for (const io::LogRecord& line : io::read_log(log, io::LogFraming::Lines)) {
     if (auto record = record_from_json({line.begin(), line.end()})) keep(std::move(*record));
   }
@@ -158,8 +158,7 @@ const BenchmarkRecord* RunRecords::find(const std::string& key, const std::strin
   const BenchmarkRecord* record = last(key, scene);
   if (!record || record->result.has_failed) return nullptr;
   const auto is_own = [&](const std::string& file) {
-    std::error_code ignored;
-    return writers_.at(file) == key && std::filesystem::exists(folder_ / file, ignored);
+    return writers_.at(file) == key && io::is_there(folder_ / file);
   };
   return std::all_of(record->files.begin(), record->files.end(), is_own) ? record : nullptr;
 }

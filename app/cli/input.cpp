@@ -8,6 +8,7 @@
 #include "app/session/result_files.h"
 #include "engine/core/error.h"
 #include "engine/io/base/array_layout.h"
+#include "engine/io/base/files.h"
 #include "engine/io/base/sample_range.h"
 #include "engine/io/formats/sequence_reader.h"
 #include "engine/io/models/names/name_pattern.h"
@@ -117,9 +118,8 @@ void check_builtin_scene(const std::string& id) {
 
 void check_input(const std::string& input) {
   const std::string builtin = builtin_scene_id(input);
-  std::error_code ignored;
   if (!builtin.empty()) return check_builtin_scene(builtin);
-  if (std::filesystem::exists(input, ignored)) return;
+  if (io::is_there(input)) return;
   if (input == "-") throw UsageError("standard input (-) is not read here; name a file or folder");
   throw IoError(input, "there is no such file or folder; check the path");
 }

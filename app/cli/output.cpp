@@ -7,6 +7,7 @@
 #include "engine/core/finding.h"
 #include "engine/core/text.h"
 #include "engine/io/base/atomic_file.h"
+#include "engine/io/base/files.h"
 #include "engine/io/base/hdf5_file.h"
 #include "engine/io/base/json.h"
 #include "engine/io/models/reader.h"
@@ -117,14 +118,13 @@ fs::path own_labels(const fs::path& path) {
 
 /// Whether an existing file in the folder of an input may be part of it.
 bool may_be_part(const fs::path& file, const fs::path& input) {
-  std::error_code ignored;
-  const bool is_folder = fs::is_directory(input, ignored);
+  const bool is_folder = io::is_folder(input);
   if (is_light_field(file)) {
     return is_folder || (file.filename() == "lf.h5" && !is_light_field(input));
   }
   if (io::has_hdf5_signature(file)) return !is_sound_result(file) && !is_sound_labeling(file);
   // Images and maps belong to folders of images only.
-  const bool is_archive = fs::exists((is_folder ? input : folder_of(input)) / "lf.h5", ignored) ||
+  const bool is_archive = io::is_there((is_folder ? input : folder_of(input)) / "lf.h5") ||
                           io::has_hdf5_signature(input);
   return !is_archive && !names_result(input.string());
 }
@@ -132,10 +132,9 @@ bool may_be_part(const fs::path& file, const fs::path& input) {
 }  // namespace
 
 void check_output_file(const fs::path& path) {
-  std::error_code ignored;
   const fs::path folder = folder_of(path);
-  if (fs::is_directory(path, ignored)) throw IoError(path, "is a folder; name a file to write");
-  if (!fs::is_directory(folder, ignored)) {
+  if (io::is_folder(path)) throw IoError(path, "is a folder; name a file to write");
+  if (!io::is_folder(folder)) {
     throw IoError(path, "cannot be written, because the folder " + folder.string() +
                             " does not exist; create it first");
   }

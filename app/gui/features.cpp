@@ -278,7 +278,7 @@ void add_segmenting(const Workbench& bench) {
                    &AnnotateController::disparityWanted, segment,
                    &SegmentController::provideDisparity);
   add_label_export(bench, *segment);
-  panel->addAction(bench.commands.find("segment.export"), "button.segment.export");
+  panel->addAction(bench.commands.find("segment.export"));
 }
 
 }  // namespace

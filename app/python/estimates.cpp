@@ -11,6 +11,7 @@
 #include "engine/core/error.h"
 #include "engine/core/text.h"
 #include "engine/disparity/registry.h"
+#include "engine/io/base/files.h"
 #include "engine/io/base/json.h"
 #include "engine/io/models/external_result.h"
 #include "engine/io/models/map_reading.h"
@@ -70,8 +71,7 @@ py::object single_view_of(const FoundEstimate& found) {
 
 /// Refuses to replace what is no result, such as the light field itself.
 void require_replaceable(const std::filesystem::path& path, MapForm form) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored) || form == MapForm::PointCloud) return;
+  if (!io::is_there(path) || form == MapForm::PointCloud) return;
   if (names_result(path.string())) return;
   throw IoError(path, "exists and is not a result; choose another name or remove it first");
 }

@@ -13,41 +13,6 @@
 #include <utility>
 
 namespace episcope {
-
-Annotation::Annotation(AnnotationDocument document, JournalOwner owner,
-                       std::filesystem::path folder)
-    : document_(std::move(document)), owner_(std::move(owner)), folder_(std::move(folder)) {}
-
-void Annotation::set_file(const std::string& file) {
-  owner_.file = file;
-  if (journal_) journal_->set_owner(owner_);
-}
-
-void Annotation::set_source(const std::string& source) {
-  owner_.source = source;
-  if (journal_) journal_->set_owner(owner_);
-}
-
-void Annotation::keep_journal() {
-  if (journal_ || folder_.empty()) return;
-  try {
-    journal_.emplace(folder_, owner_, document_);
-  } catch (const IoError&) {
-    folder_.clear();
-    throw;
-  }
-}
-
-void Annotation::drop_journal() {
-  journal_.reset();
-  folder_.clear();
-}
-
-void Annotation::finish() {
-  if (journal_) journal_->finish();
-  drop_journal();
-}
-
 namespace {
 
 namespace fs = std::filesystem;
@@ -71,40 +36,50 @@ fs::path new_path(const fs::path& folder, const std::string& name) {
 
 }  // namespace
 
-AnnotationJournal::AnnotationJournal(const fs::path& folder, JournalOwner owner,
-                                     AnnotationDocument& document)
-    : path_(new_path(folder, owner.name)), owner_(std::move(owner)), document_(&document) {
-  io::make_folder(folder,
-                  ", so nothing painted could be recovered after a crash; create it or make its "
-                  "parent writable");
-  rewrite();
-  document.set_observer([this](const DocumentEvent& event) { record(event); });
+Annotation::Annotation(AnnotationDocument document, JournalOwner owner, fs::path folder)
+    : document_(std::move(document)), owner_(std::move(owner)), folder_(std::move(folder)) {}
+
+void Annotation::set(std::string JournalOwner::*member, const std::string& value) {
+  owner_.*member = value;
+  if (log_ && written_owner_ != owner_) rewrite();
 }
 
-AnnotationJournal::~AnnotationJournal() {
-  document_->set_observer({});
+void Annotation::keep_journal() {
+  if (log_ || folder_.empty()) return;
+  try {
+    io::make_folder(folder_,
+                    ", so nothing painted could be recovered after a crash; create it or make its "
+                    "parent writable");
+    path_ = new_path(folder_, owner_.name);
+    rewrite();
+  } catch (const IoError&) {
+    folder_.clear();
+    throw;
+  }
+  document_.set_observer([this](const DocumentEvent& event) { record(event); });
 }
 
-void AnnotationJournal::finish() {
-  document_->set_observer({});
-  discard_journal(path_);
+void Annotation::drop_journal() {
+  document_.set_observer({});
+  log_.reset();
+  folder_.clear();
 }
 
-void AnnotationJournal::set_owner(JournalOwner owner) {
-  if (owner == owner_) return;
-  owner_ = std::move(owner);
-  rewrite();
+void Annotation::finish() {
+  if (log_) discard_journal(path_);
+  drop_journal();
 }
 
-void AnnotationJournal::record(const DocumentEvent& event) {
+void Annotation::record(const DocumentEvent& event) {
   log_->append(step_record(event));
   if (log_->byte_size() > 2 * first_bytes_ + kSlackBytes) rewrite();
 }
 
-void AnnotationJournal::rewrite() {
+void Annotation::rewrite() {
   log_.emplace(path_, io::LogFraming::Checked, io::LogFlush::InBackground,
-               journal_records(owner_, *document_));
+               journal_records(owner_, document_));
   first_bytes_ = log_->byte_size();
+  written_owner_ = owner_;
 }
 
 RecoveredAnnotation read_journal(const fs::path& path) {

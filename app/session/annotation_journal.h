@@ -22,42 +22,6 @@ struct JournalOwner {
   friend bool operator==(const JournalOwner&, const JournalOwner&) = default;
 };
 
-/// Keeps every step of a document in a file of `folder`, so that what was painted outlives a crash:
-/// a step is in the file when the call that made it returns, and on the disk soon after. The file
-/// stays when the journal is destroyed; `finish` removes it. At most two times the size of the
-/// document with its history and kSlackBytes are kept.
-class AnnotationJournal {
- public:
-  static constexpr std::uintmax_t kSlackBytes = std::uintmax_t{4} << 20;
-
-  /// Begins a journal with the document as it is, and observes it from now on: no other observer
-  /// may be set. The document must outlive the journal. Makes the folder. Throws IoError.
-  AnnotationJournal(const std::filesystem::path& folder, JournalOwner owner,
-                    AnnotationDocument& document);
-  ~AnnotationJournal();
-  AnnotationJournal(const AnnotationJournal&) = delete;
-  AnnotationJournal& operator=(const AnnotationJournal&) = delete;
-
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  [[nodiscard]] std::uintmax_t byte_size() const { return log_->byte_size(); }
-  /// The document was saved to another file, or its light field moved. Throws IoError.
-  void set_owner(JournalOwner owner);
-  /// Waits until everything is on the disk. Throws IoError.
-  void flush() { log_->flush(); }
-  /// Ends the journal and removes the file: the session ended normally.
-  void finish();
-
- private:
-  void record(const DocumentEvent& event);
-  void rewrite();
-
-  std::filesystem::path path_;
-  JournalOwner owner_;
-  AnnotationDocument* document_;
-  std::optional<io::AppendLog> log_;
-  std::uintmax_t first_bytes_ = 0;  ///< Of the file when it was last written anew.
-};
-
 /// The document of a crashed session.
 struct RecoveredAnnotation {
   JournalOwner owner;
@@ -88,11 +52,15 @@ struct RecoverableJournal {
 /// Removes a journal that the user does not want or that was recovered.
 void discard_journal(const std::filesystem::path& path);
 
-/// The document painted on a light field, with the journal that survives a crash. The journal
-/// begins with the first edit, so that merely looking leaves no file.
+/// The document painted on a light field, with the journal that survives a crash: a step is in that
+/// file when the call that made it returns, and on the disk soon after. The journal begins with the
+/// first edit, so that merely looking leaves no file, and stays unless `finish` removes it. At most
+/// two times the size of the document with its history and kSlackBytes are kept.
 class Annotation {
  public:
-  /// Keeps journals in `folder`; none if that is empty.
+  static constexpr std::uintmax_t kSlackBytes = std::uintmax_t{4} << 20;
+
+  /// Keeps journals in `folder`, which is made; none if that is empty.
   Annotation(AnnotationDocument document, JournalOwner owner, std::filesystem::path folder);
   Annotation(const Annotation&) = delete;
   Annotation& operator=(const Annotation&) = delete;
@@ -104,26 +72,33 @@ class Annotation {
   void set_sample_hash(std::uint64_t hash) { owner_.sample_hash = hash; }
   /// Sets where the document was saved last, which a crash does not forget. Throws IoError if the
   /// journal cannot be written.
-  void set_file(const std::string& file);
+  void set_file(const std::string& file) { set(&JournalOwner::file, file); }
   [[nodiscard]] const std::string& file() const { return owner_.file; }
   /// Sets what opens the light field, which was moved. Throws IoError as `set_file`.
-  void set_source(const std::string& source);
+  void set_source(const std::string& source) { set(&JournalOwner::source, source); }
   /// Begins the journal unless it is there, or is not wanted. To be called before each edit. Throws
   /// IoError if it cannot be kept: then there will be none.
   void keep_journal();
-  [[nodiscard]] bool has_journal() const { return journal_.has_value(); }
+  [[nodiscard]] bool has_journal() const { return log_.has_value(); }
   /// Precondition: there is one.
-  [[nodiscard]] const std::filesystem::path& journal_path() const { return journal_->path(); }
+  [[nodiscard]] const std::filesystem::path& journal_path() const { return path_; }
   /// Abandons the journal, which can no longer be written.
   void drop_journal();
   /// Removes the journal, since the session ended normally or its changes were discarded.
   void finish();
 
  private:
+  void set(std::string JournalOwner::*member, const std::string& value);
+  void record(const DocumentEvent& event);
+  void rewrite();
+
   AnnotationDocument document_;
   JournalOwner owner_;
   std::filesystem::path folder_;
-  std::optional<AnnotationJournal> journal_;
+  std::filesystem::path path_;
+  std::optional<io::AppendLog> log_;
+  std::uintmax_t first_bytes_ = 0;  ///< Of the file when it was last written anew,
+  JournalOwner written_owner_;      ///< with this owner.
 };
 
 /// Records of a journal of the present document: the owner, the document before the oldest edit of

@@ -56,10 +56,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-std::string absolute_path(const Json& text, const fs::path& project) {
-  return (project.parent_path() / text.get<std::string>()).lexically_normal().string();
-}
-
 // What cannot be told is left out: JSON has no numbers for it.
 void put(Json& json, const char* key, double value) {
   if (std::isfinite(value)) json[key] = value;
@@ -327,9 +323,10 @@ std::string free_name(const std::vector<Named>& all, const std::string& stem) {
   return std::to_string(number);
 }
 
-CaptureObject new_object(const CaptureWork& work, const std::string& mesh) {
-  return {.name = free_name(work.objects, std::filesystem::path(mesh).stem().string()),
-          .mesh = mesh};
+void append_object(CaptureWork& work, const std::string& mesh) {
+  work.current = static_cast<int>(work.objects.size());
+  work.objects.push_back(
+      {.name = free_name(work.objects, std::filesystem::path(mesh).stem().string()), .mesh = mesh});
 }
 
 }  // namespace
@@ -358,10 +355,7 @@ void CaptureDocument::edit(const std::function<void(CaptureWork&)>& change) {
 
 void CaptureDocument::edit_object(const std::function<void(CaptureObject&)>& change) {
   edit([&](CaptureWork& work) {
-    if (!work.object()) {
-      work.objects.push_back(new_object(work, {}));
-      work.current = static_cast<int>(work.objects.size()) - 1;
-    }
+    if (!work.object()) append_object(work, {});
     change(work.objects[static_cast<std::size_t>(work.current)]);
   });
 }
@@ -378,10 +372,7 @@ void CaptureDocument::set_rectify(const capture::RectifyOptions& options) {
 }
 
 void CaptureDocument::add_object(const std::string& mesh) {
-  edit([&](CaptureWork& work) {
-    work.objects.push_back(new_object(work, mesh));
-    work.current = static_cast<int>(work.objects.size()) - 1;
-  });
+  edit([&](CaptureWork& work) { append_object(work, mesh); });
 }
 
 void CaptureDocument::remove_object() {
@@ -403,10 +394,7 @@ void CaptureDocument::choose(int object) {
 
 void CaptureDocument::set_mesh(const std::string& file) {
   if (!work_.object()) return add_object(file);
-  edit([&](CaptureWork& work) {
-    CaptureObject& object = work.objects[static_cast<std::size_t>(work.current)];
-    object.mesh = file;
-  });
+  edit_object([&](CaptureObject& object) { object.mesh = file; });
 }
 
 void CaptureDocument::add_pairs(std::vector<capture::PointPair> pairs) {

@@ -3,6 +3,7 @@
 
 #include "app/session/load_scene.h"
 #include "engine/core/hash.h"
+#include "engine/io/base/files.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/models/reader.h"
 #include "engine/io/open.h"
@@ -135,8 +136,7 @@ fs::path cache_file(const io::CollectionEntry& entry, const fs::path& cache_fold
 }
 
 std::optional<Picture> kept(const fs::path& file) {
-  std::error_code error;
-  if (file.empty() || !fs::exists(file, error)) return std::nullopt;
+  if (file.empty() || !io::is_there(file)) return std::nullopt;
   try {
     io::AnyImage decoded = io::decode_image(file);
     auto* picture = std::get_if<Picture>(&decoded);

@@ -12,17 +12,17 @@
 #include "engine/core/shear.h"
 #include "engine/core/text.h"
 #include "engine/core/version.h"
+#include "engine/io/base/atomic_file.h"
+#include "engine/io/base/files.h"
 #include "engine/io/base/hdf5_file.h"
 #include "engine/io/formats/write_scene.h"
 #include "engine/io/models/reader.h"
 #include "engine/io/open.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <memory>
-#include <random>
 #include <system_error>
 #include <tuple>
 #include <utility>
@@ -207,8 +207,7 @@ void store_in_cache(const std::string& input, const Scene& scene,
   const scenes::BuiltinRequest request = scenes::read_request(id);
   if (!is_worth_keeping(request)) return;
   const SceneCache cache(cache_folder);
-  std::error_code ignored;
-  if (!std::filesystem::exists(cache.place(request.scene, request.options), ignored)) {
+  if (!io::is_there(cache.place(request.scene, request.options))) {
     cache.write(request.scene, request.options, scene, progress);
   }
 }
@@ -248,20 +247,6 @@ std::string builtin_input_name(const std::string& id) {
 
 namespace {
 
-// Removes a folder when it goes out of scope, whatever happened.
-struct TemporaryFolder {
-  std::filesystem::path path;
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path, ignored);
-  }
-};
-
-std::string random_suffix() {
-  std::random_device random;
-  return fmt::format(".{:08x}", random());
-}
-
 std::string key_of(const std::string& id, const scenes::RenderOptions& options) {
   return fmt::format("{}-{}-{}x{}-{}x{}x{}-n{:g}-s{}-d{:g}", id, kVersion, options.grid.v,
                      options.grid.u, options.height, options.width, options.channels,
@@ -294,8 +279,7 @@ std::optional<Scene> SceneCache::read(const std::string& id, const scenes::Rende
 std::optional<ViewStack<std::uint8_t>> SceneCache::read_samples(
     const std::string& id, const scenes::RenderOptions& options, const Progress& progress) const {
   const std::filesystem::path path = place(id, options) / "lf.h5";
-  std::error_code ignored;
-  if (folder_.empty() || !std::filesystem::exists(path, ignored)) return std::nullopt;
+  if (folder_.empty() || !io::is_there(path)) return std::nullopt;
   try {
     const io::Hdf5Input file(path);
     ViewStack<std::uint8_t> stack(options.grid, options.height, options.width, options.channels);
@@ -320,21 +304,17 @@ std::optional<ViewStack<std::uint8_t>> SceneCache::read_samples(
 bool SceneCache::write(const std::string& id, const scenes::RenderOptions& options,
                        const Scene& scene, const Progress& progress) const {
   if (folder_.empty()) return false;
-  const std::filesystem::path final_place = place(id, options);
-  std::error_code failure;
-  std::filesystem::create_directories(folder_, failure);
-  if (failure) return false;
-  const TemporaryFolder temporary{final_place.string() + random_suffix()};
-  std::filesystem::create_directory(temporary.path, failure);
-  if (failure) return false;
+  std::error_code ignored;
+  std::filesystem::create_directories(folder_, ignored);
+  std::filesystem::remove_all(place(id, options), ignored);
   try {
-    io::write_archive(temporary.path / "lf.h5", scene, progress);
+    io::AtomicFolder made(place(id, options));
+    io::write_archive(made.temporary() / "lf.h5", scene, progress);
+    made.commit();
+    return true;
   } catch (const Error&) {
     return false;
   }
-  std::filesystem::remove_all(final_place, failure);
-  std::filesystem::rename(temporary.path, final_place, failure);
-  return !failure;
 }
 
 namespace {
@@ -352,24 +332,20 @@ fs::path place_of(const capture::DemoOptions& options, const fs::path& cache) {
 
 // The text with the commands is written last.
 bool is_whole(const fs::path& folder) {
-  std::error_code ignored;
-  return fs::exists(folder / "readme.txt", ignored);
+  return io::is_there(folder / "readme.txt");
 }
 
-// Nobody sees a folder that is not whole. Returns whether it is there.
+// Returns whether the folder is there, which may have been made meanwhile.
 bool make_folder(const fs::path& place, const capture::DemoOptions& options,
                  const Progress& progress) {
-  const fs::path begun = place.string() + fmt::format(".{}", ::getpid());
   std::error_code ignored;
+  fs::create_directories(place.parent_path(), ignored);
   try {
-    capture::write_demo_folder(begun, options, progress);
-    fs::rename(begun, place, ignored);  // if it was made meanwhile, that one is as good
-  } catch (const IoError&) {            // a cache is a convenience
-  } catch (...) {
-    fs::remove_all(begun, ignored);
-    throw;
+    io::AtomicFolder made(place);
+    capture::write_demo_folder(made.temporary(), options, progress);
+    made.commit();
+  } catch (const IoError&) {  // a cache is a convenience
   }
-  fs::remove_all(begun, ignored);
   return is_whole(place);
 }
 

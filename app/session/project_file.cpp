@@ -194,10 +194,6 @@ Json scene_json(const ProjectScene& scene, const fs::path& project) {
   return json;
 }
 
-std::string absolute_path(const std::string& text, const fs::path& project) {
-  return (project.parent_path() / text).lexically_normal().string();
-}
-
 // What a later program can choose is the whole view here.
 JudgedPart judged_of(const Json& json, const fs::path& project) {
   JudgedPart part;

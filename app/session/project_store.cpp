@@ -119,8 +119,7 @@ void store_strokes(ProjectScene& scene, const fs::path& folder) {
 }  // namespace
 
 bool is_in_file(const ProjectResult& result) {
-  std::error_code ignored;
-  return !result.file.empty() && (!result.estimate || fs::exists(result.file, ignored));
+  return !result.file.empty() && (!result.estimate || io::is_there(result.file));
 }
 
 fs::path store_result(const fs::path& folder, const std::string& scene, const ProjectResult& result,
@@ -248,15 +247,14 @@ MovedFolder moved_folder(const fs::path& from, const fs::path& to) {
 }
 
 std::string moved_input(const std::string& input, const MovedFolder& moved) {
-  std::error_code ignored;
-  if (!builtin_scene_id(input).empty() || fs::exists(input, ignored)) return {};
+  if (!builtin_scene_id(input).empty() || io::is_there(input)) return {};
   const fs::path path = input;
   const auto [end, rest] =
       std::mismatch(moved.from.begin(), moved.from.end(), path.begin(), path.end());
   if (end != moved.from.end()) return {};
   fs::path found = moved.to;
   for (auto part = rest; part != path.end(); ++part) found /= *part;
-  return fs::exists(found, ignored) ? found.string() : std::string();
+  return io::is_there(found) ? found.string() : std::string();
 }
 
 namespace {

@@ -19,22 +19,17 @@ using render::Quantity;
 using render::Subject;
 using Map = std::shared_ptr<QuantityMap>;
 
-/// Which views something is known of: a block of the grid.
-struct ViewCoverage {
-  GridShape grid{};  ///< Empty = none.
-  ViewIndex first{};
-};
-
+/// Which views something is known of; an empty grid = none.
 template <class T>
-ViewCoverage coverage_of(const ViewStack<T>& stack) {
-  return stack.empty() ? ViewCoverage() : ViewCoverage{stack.grid(), stack.first()};
+ViewRectangle coverage_of(const ViewStack<T>& stack) {
+  return {stack.first(), stack.grid()};
 }
 
 /// How a quantity of a result is found in it: one row of a table.
 struct ResultMap {
   render::Quantity quantity;
   const char* what;  ///< In a sentence: "the result has no confidence".
-  ViewCoverage (*coverage)(const Estimate& estimate);
+  ViewRectangle (*coverage)(const Estimate& estimate);
   /// Precondition: the view is covered.
   std::shared_ptr<QuantityMap> (*make)(const EstimatePtr& estimate, ViewIndex view);
 };
@@ -90,23 +85,13 @@ const ResultMap& result_map_of(Quantity quantity) {
   return found == std::end(kResultMaps) ? kResultMaps[0] : *found;
 }
 
-std::string coverage_text(const ViewCoverage& covered) {
-  return fmt::format("{}×{} views from view {} on", covered.grid.v, covered.grid.u,
-                     view_text(covered.first));
-}
-
-bool contains(const ViewCoverage& covered, ViewIndex view) {
-  const int v = view.v - covered.first.v;
-  const int u = view.u - covered.first.u;
-  return v >= 0 && u >= 0 && v < covered.grid.v && u < covered.grid.u;
-}
-
-std::string reason_against_view(const ViewCoverage& covered, ViewIndex view, const std::string& who,
-                                const std::string& what) {
+std::string reason_against_view(const ViewRectangle& covered, ViewIndex view,
+                                const std::string& who, const std::string& what) {
   if (covered.grid.count() == 0) return who + " has no " + what;
-  if (contains(covered, view)) return {};
-  return fmt::format("{} has {}, but view {} was asked for", who, coverage_text(covered),
-                     view_text(view));
+  const ViewIndex place{view.v - covered.first.v, view.u - covered.first.u};
+  if (covered.grid.contains(place)) return {};
+  return fmt::format("{} has {}×{} views from view {} on, but view {} was asked for", who,
+                     covered.grid.v, covered.grid.u, view_text(covered.first), view_text(view));
 }
 
 std::string reason_against_result(const MapSource& source) {

@@ -4,6 +4,7 @@
 #include "app/session/command_line.h"
 #include "app/session/judge.h"
 #include "app/session/load_scene.h"
+#include "app/session/scene_summary.h"
 #include "engine/core/disparity_field.h"
 #include "engine/core/error.h"
 #include "engine/core/finding.h"
@@ -107,8 +108,7 @@ bool are_on_their_side(const ViewStack<float>& maps, const LightField& light_fie
 }
 
 bool names_result(const std::string& path) {
-  std::error_code ignored;
-  if (!builtin_scene_id(path).empty() || !fs::is_regular_file(path, ignored)) return false;
+  if (!builtin_scene_id(path).empty() || !io::is_file(path)) return false;
   const std::string suffix = suffix_of(path);
   if (suffix == ".npy") return is_npy_result(path);
   if (suffix == ".tif" || suffix == ".tiff") return is_tiff_map(path);
@@ -173,17 +173,14 @@ void find_border_of(Estimate& estimate, const LightField& light_field) {
 }
 
 bool is_hdf5_light_field(const fs::path& path) {
-  std::error_code ignored;
-  return fs::is_regular_file(path, ignored) && io::has_hdf5_signature(path) &&
+  return io::is_file(path) && io::has_hdf5_signature(path) &&
          holds_light_field(io::Hdf5Input(path)) && !io::is_result_file(path);
 }
 
 }  // namespace
 
 bool names_light_field_only(const std::string& path) {
-  std::error_code ignored;
-  return !builtin_scene_id(path).empty() || fs::is_directory(path, ignored) ||
-         is_hdf5_light_field(path);
+  return !builtin_scene_id(path).empty() || io::is_folder(path) || is_hdf5_light_field(path);
 }
 
 Estimate read_result_of(const LightField& light_field, const fs::path& path,
@@ -369,23 +366,16 @@ bool is_of_other_samples(const Estimate& estimate, const LightField& light_field
 
 namespace {
 
-using Option = ParameterSet::value_type;
-
-const Option* find(const ParameterSet& options, const std::string& key) {
-  const auto found = std::ranges::find(options, key, &Option::first);
-  return found == options.end() ? nullptr : &*found;
-}
-
-IoError contradiction(const std::string& result, const Option& given, const Option* stored) {
+IoError contradiction(const std::string& result, const std::string& key,
+                      const ParameterValue& given, const ParameterValue* stored) {
   const std::string was =
-      stored ? "with" + reading_options_text({*stored}) : "without --" + given.first;
-  return {result, "was made " + was + ", but" + reading_options_text({given}) +
-                      " was asked for; leave --" + given.first +
-                      " out, or name the file of another run"};
+      stored ? "with" + reading_options_text({{key, *stored}}) : "without --" + key;
+  return {result, "was made " + was + ", but" + reading_options_text({{key, given}}) +
+                      " was asked for; leave --" + key + " out, or name the file of another run"};
 }
 
 ParameterSet without_focus(ParameterSet options) {
-  std::erase_if(options, [](const Option& option) { return option.first == Reading::kFocus; });
+  std::erase_if(options, [](const auto& option) { return option.first == Reading::kFocus; });
   return options;
 }
 
@@ -396,17 +386,17 @@ io::OpenOptions options_for_result(const std::string& result, const Reading& of_
   const Schema<io::OpenOptions> schema = io::open_schema();
   const io::OpenOptions asked = schema.parse(given);
   if (of_result.reader.empty()) return asked;
-  const Option* focus = find(given, Reading::kFocus);
+  const ParameterValue* focus = find_value(given, Reading::kFocus);
   if (focus && asked.focus_px != of_result.focus_px()) {
-    throw contradiction(result, *focus, find(of_result.options, Reading::kFocus));
+    throw contradiction(result, Reading::kFocus, *focus, of_result.find(Reading::kFocus));
   }
   ParameterSet options = given;
   const bool is_same_form = reader_of(input, asked) == of_result.reader;
-  for (const Option& stored : of_result.options) {
-    if (!is_same_form && stored.first != Reading::kFocus) continue;
-    const Option* known = find(given, stored.first);
-    if (!known) options.push_back(stored);
-    if (known && !(known->second == stored.second)) throw contradiction(result, *known, &stored);
+  for (const auto& [key, stored] : of_result.options) {
+    if (!is_same_form && key != Reading::kFocus) continue;
+    const ParameterValue* known = find_value(given, key);
+    if (!known) options.emplace_back(key, stored);
+    if (known && !(*known == stored)) throw contradiction(result, key, *known, &stored);
   }
   return schema.parse(options);
 }
@@ -443,10 +433,13 @@ std::string source_text(const std::string& input, const fs::path& result) {
   return reads_as_builtin ? (fs::path(".") / relative).string() : relative;
 }
 
+std::string absolute_path(const std::string& text, const fs::path& result) {
+  return (result.parent_path() / text).lexically_normal().string();
+}
+
 bool is_there(const std::string& input, const ParameterSet& reading) {
   if (!builtin_scene_id(input).empty()) return true;
-  std::error_code ignored;
-  if (!fs::is_directory(input, ignored)) return fs::exists(input, ignored);
+  if (!io::is_folder(input)) return io::is_there(input);
   try {
     return !reader_of(input, io::open_schema().parse(reading)).empty();
   } catch (const IoError&) {
@@ -502,9 +495,8 @@ ResultOwner owner_of_result(const fs::path& result, const LightField* front,
     return {is_of_front ? "" : existing_source(stated_source(result), result), true};
   }
   const fs::path folder = fs::absolute(result).parent_path();
-  std::error_code ignored;
   const bool is_beside_front =
-      front && fs::exists(front_input, ignored) && io::is_inside_folder(front_input, folder);
+      front && io::is_there(front_input) && io::is_inside_folder(front_input, folder);
   const bool has_owner = !is_beside_front && is_light_field(folder);
   return {has_owner ? folder.string() : "", false};
 }
@@ -513,17 +505,8 @@ namespace {
 
 // Of one px of disparity without a camera: what is seen is a quarter as deep as it is wide.
 double z_per_px(const DisparityView& view) {
-  const auto& map = view.disparity;
-  double min = std::numeric_limits<double>::infinity();
-  double max = -min;
-  for (int y = 0; y < map.height; ++y) {
-    for (int x = 0; x < map.width; ++x) {
-      if (!view.is_valid(y, x)) continue;
-      min = std::min<double>(min, map.at(y, x));
-      max = std::max<double>(max, map.at(y, x));
-    }
-  }
-  return max > min ? 0.25 * map.width / (max - min) : 1;
+  const double length = extent(view).length();
+  return length > 0 ? 0.25 * view.disparity.width / length : 1;
 }
 
 }  // namespace

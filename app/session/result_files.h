@@ -114,6 +114,10 @@ void bring_to_focus(Estimate& estimate, const LightField& light_field, const Pro
 [[nodiscard]] std::string source_text(const std::string& input,
                                       const std::filesystem::path& result);
 
+/// The path that `source_text` wrote, in `result`.
+[[nodiscard]] std::string absolute_path(const std::string& text,
+                                        const std::filesystem::path& result);
+
 /// Whether an input can be opened still: a folder only with a light field in it,
 /// which may be damaged.
 [[nodiscard]] bool is_there(const std::string& input, const ParameterSet& reading);

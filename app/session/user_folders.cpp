@@ -5,6 +5,7 @@
 #include "engine/core/finding.h"
 #include "engine/core/memory.h"
 #include "engine/core/text.h"
+#include "engine/io/base/files.h"
 #include "engine/io/formats/archive_reader.h"
 #include "engine/io/formats/sequence_reader.h"
 #include "engine/io/models/scribble_file.h"
@@ -93,8 +94,7 @@ std::filesystem::path user_folder(const char* variable, const char* below_home) 
 
 /// Whether a folder that need not exist yet could be made and written to.
 bool can_be_written(std::filesystem::path folder) {
-  std::error_code error;
-  while (!folder.empty() && !std::filesystem::exists(folder, error)) {
+  while (!folder.empty() && !io::is_there(folder)) {
     const std::filesystem::path above = folder.parent_path();
     if (above == folder) return false;
     folder = above;
@@ -143,13 +143,12 @@ namespace fs = std::filesystem;
 
 fs::path label_place(const LightField& light_field) {
   const fs::path source = light_field.info().source;
-  std::error_code ignored;
   if (const fs::path frame = io::frame_path(light_field.info()); !frame.empty()) {
-    return fs::is_directory(frame, ignored) ? frame / "labels.h5"
-                                            : source / ("labels_" + frame.stem().string() + ".h5");
+    return io::is_folder(frame) ? frame / "labels.h5"
+                                : source / ("labels_" + frame.stem().string() + ".h5");
   }
-  if (fs::is_directory(source, ignored)) return source / "labels.h5";
-  if (!fs::is_regular_file(source, ignored)) return {};
+  if (io::is_folder(source)) return source / "labels.h5";
+  if (!io::is_file(source)) return {};
   if (light_field.info().reading.reader == io::kArchiveReader) return io::labels_beside(source);
   // Several light fields of other forms may share a folder.
   const int frame = io::open_schema().parse(light_field.info().reading.options).frame;
@@ -167,13 +166,12 @@ bool is_writable(const fs::path& path) {
 
 void read_kept_scribbles(Scene& scene, const Progress& progress) {
   const fs::path place = label_place(*scene.light_field);
-  std::error_code ignored;
   // Readers of the archive look there themselves.
   const LightFieldInfo& info = scene.light_field->info();
   const fs::path frame = io::frame_path(info);
   const bool is_known = info.reading.reader == io::kArchiveReader ||
-                        (!frame.empty() && fs::exists(frame / "lf.h5", ignored));
-  if (is_known || !fs::exists(place, ignored)) return;
+                        (!frame.empty() && io::is_there(frame / "lf.h5"));
+  if (is_known || !io::is_there(place)) return;
   try {
     scene.scribbles = io::read_scribbles(place, scene, progress);
   } catch (const IoError& error) {

@@ -14,6 +14,10 @@ namespace {
 constexpr qsizetype kFewestCorners = 3;
 constexpr double kHandle = 3;  // radius of the first corner, logical pixels
 
+StrokeStart start_of(const ToolPress& press) {
+  return {press.at, press.button == Qt::RightButton, press.modifiers.testFlag(Qt::ShiftModifier)};
+}
+
 }  // namespace
 
 void OutlineTool::setColor(const QColor& color) {
@@ -29,7 +33,7 @@ void OutlineTool::change(const QPolygonF& corners) {
 }
 
 void OutlineTool::begin(const ToolPress& press) {
-  start_ = {press.at, press.button == Qt::RightButton, press.modifiers.testFlag(Qt::ShiftModifier)};
+  start_ = start_of(press);
   change({press.at});
 }
 
@@ -40,6 +44,7 @@ void OutlineTool::addCorner(QPointF image) {
 
 void OutlineTool::removeCorner() {
   QPolygonF fewer = corners_;
+  if (fewer.isEmpty()) return;
   fewer.removeLast();
   change(fewer);
 }
@@ -49,10 +54,12 @@ void OutlineTool::setNext(const QPolygonF& next) {
   emit shapeChanged();
 }
 
-void OutlineTool::close() {
+bool OutlineTool::close() {
+  if (!isDrawing()) return false;
   const QPolygonF corners = corners_;
   change({});
   if (corners.size() >= kFewestCorners) emit outlined(corners, start_);
+  return true;
 }
 
 bool OutlineTool::cancel() {
@@ -85,19 +92,13 @@ void LassoTool::drag(QPointF image) {
   if (isDrawing() && image != corners().back()) addCorner(image);
 }
 
-bool LassoTool::end() {
-  if (!isDrawing()) return false;
-  close();
-  return true;
-}
-
 void PolygonTool::press(const ToolPress& press) {
   if (isDrawing() && is_away_) {
     emit pressedAway();
   } else if (!isDrawing()) {
     begin(press);
   } else if (press.is_double) {
-    closeUp();  // its first click has set the last corner
+    close();  // its first click has set the last corner
   } else {
     addCorner(press.at);
   }
@@ -109,18 +110,6 @@ void PolygonTool::paintShape(QPainter& painter, const QTransform& widget_from_im
 
 void PolygonTool::setAway(bool is_away) {
   if (std::exchange(is_away_, is_away) != is_away) emit shapeChanged();
-}
-
-bool PolygonTool::closeUp() {
-  if (!isDrawing()) return false;
-  close();
-  return true;
-}
-
-bool PolygonTool::takeBack() {
-  if (!isDrawing()) return false;
-  removeCorner();
-  return true;
 }
 
 void RectangleTool::press(const ToolPress& press) {
@@ -208,18 +197,10 @@ void StrokeTool::drag(QPointF image) {
   if (is_stroking_) emit strokeExtended(image);
 }
 
-bool StrokeTool::end() {
+bool StrokeTool::stop(void (StrokeTool::*told)()) {
   if (!std::exchange(is_stroking_, false)) return false;
   erases_by_button_ = false;
-  emit strokeFinished();
-  emit changed();
-  return true;
-}
-
-bool StrokeTool::cancel() {
-  if (!std::exchange(is_stroking_, false)) return false;
-  erases_by_button_ = false;
-  emit strokeCancelled();
+  emit(this->*told)();
   emit changed();
   return true;
 }
@@ -262,8 +243,7 @@ void StrokeTool::paintTicks(QPainter& painter, QPointF center, double radius) co
 }
 
 void FillTool::press(const ToolPress& press) {
-  start_ = StrokeStart{press.at, press.button == Qt::RightButton,
-                       press.modifiers.testFlag(Qt::ShiftModifier)};
+  start_ = start_of(press);
   emit pressed(press.at);
 }
 

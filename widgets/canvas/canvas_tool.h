@@ -130,6 +130,10 @@ class OutlineTool : public CanvasTool {
   [[nodiscard]] const QPolygonF& corners() const { return corners_; }
   [[nodiscard]] bool isDrawing() const { return !corners_.isEmpty(); }
 
+  /// Ends the gesture and emits it, unless the corners enclose nothing; false if there is none.
+  bool close();
+  /// Removes the last corner, if there is one.
+  void removeCorner();
   bool cancel() override;
   void putAway() override { cancel(); }
   [[nodiscard]] QCursor cursor() const override { return Qt::CrossCursor; }
@@ -144,9 +148,6 @@ class OutlineTool : public CanvasTool {
  protected:
   void begin(const ToolPress& press);
   void addCorner(QPointF image);
-  void removeCorner();
-  /// Ends the gesture and emits it, unless the corners enclose nothing.
-  void close();
   /// Preview of the next corner; empty = none.
   void setNext(const QPolygonF& next);
 
@@ -168,7 +169,7 @@ class LassoTool : public OutlineTool {
 
   void press(const ToolPress& press) override { begin(press); }
   void drag(QPointF image) override;
-  bool end() override;
+  bool end() override { return close(); }
 };
 
 /// Outlines a region corner by corner: a click sets a corner, a double click closes it. The outline
@@ -186,10 +187,6 @@ class PolygonTool : public OutlineTool {
   void paintShape(QPainter& painter, const QTransform& widget_from_image) const override;
   /// Tells that another view is shown: the outline is not drawn, and clicks set no corners.
   void setAway(bool is_away);
-  /// Closes the outline; false if there is none.
-  bool closeUp();
-  /// Removes the last corner; false if there is no outline.
-  bool takeBack();
 
  signals:
   /// A click in a view that is not the outline's.
@@ -226,8 +223,8 @@ class StrokeTool : public CanvasTool {
 
   void press(const ToolPress& press) override;
   void drag(QPointF image) override;
-  bool end() override;
-  bool cancel() override;
+  bool end() override { return stop(&StrokeTool::strokeFinished); }
+  bool cancel() override { return stop(&StrokeTool::strokeCancelled); }
   void step(double steps) override { emit sizeStepped(steps); }
   [[nodiscard]] QCursor cursor() const override { return Qt::BlankCursor; }
   [[nodiscard]] QRectF markRect(QPointF center, double scale) const override;
@@ -243,6 +240,8 @@ class StrokeTool : public CanvasTool {
 
  private:
   [[nodiscard]] bool erases() const { return is_eraser_ || erases_by_button_; }
+  /// Ends a stroke and tells so; false if there is none.
+  bool stop(void (StrokeTool::*told)());
   void paintTicks(QPainter& painter, QPointF center, double radius) const;
 
   bool is_eraser_ = false;

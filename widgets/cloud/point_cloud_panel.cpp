@@ -12,7 +12,6 @@
 #include <QSignalBlocker>
 #include <QSlider>
 #include <QStackedLayout>
-#include <QStandardItemModel>
 #include <QToolButton>
 #include <QVBoxLayout>
 
@@ -139,8 +138,7 @@ Value chosen(const QComboBox& combo) {
 
 template <class Value>
 void offer(QComboBox& combo, Value value, bool is_offered) {
-  auto* model = qobject_cast<QStandardItemModel*>(combo.model());
-  model->item(combo.findData(static_cast<int>(value)))->setEnabled(is_offered);
+  set_item_enabled(&combo, combo.findData(static_cast<int>(value)), is_offered);
 }
 
 }  // namespace
@@ -155,10 +153,7 @@ CloudControls::CloudControls(QWidget* parent)
       jump_(named("cloud.jump", new NumberSpin(this))),
       summary_(named("cloud.summary", new QLabel(this))) {
   setObjectName("cloud.controls");
-  auto* grid = new QGridLayout(this);
-  grid->setContentsMargins(0, 0, 0, 0);
-  grid->setHorizontalSpacing(theme::kSpacing);
-  grid->setVerticalSpacing(3);
+  auto* grid = make_grid(this, theme::kSpacing, 3);
   addColoring(*grid);
   addCompanion(*grid);
   addSurface(*grid);

@@ -327,6 +327,7 @@ LinePlot::LinePlot(QWidget* parent) : QWidget(parent), chart_(std::make_unique<P
   setFocusPolicy(Qt::TabFocus);
   setMouseTracking(true);
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
+  theme::follow_palette(this, this, [this] { chart_->set(plot_, palette()); });
 }
 
 LinePlot::~LinePlot() = default;
@@ -470,11 +471,6 @@ void LinePlot::walk(int points, int series) {
   walked_->series = moved(walked_->series, series, plot_.series.size());
   walked_->point = moved(walked_->point, points, plot_.series[walked_->series].points.size());
   update();
-}
-
-void LinePlot::changeEvent(QEvent* event) {
-  QWidget::changeEvent(event);
-  if (event->type() == QEvent::PaletteChange) chart_->set(plot_, palette());
 }
 
 }  // namespace episcope

@@ -87,7 +87,6 @@ class LinePlot : public QWidget {
   void leaveEvent(QEvent*) override { setHovered(std::nullopt); }
   void keyPressEvent(QKeyEvent* event) override;
   void focusInEvent(QFocusEvent* event) override;
-  void changeEvent(QEvent* event) override;
 
  private:
   [[nodiscard]] QPointF valueOf(PlotPlace place) const;

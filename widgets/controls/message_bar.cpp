@@ -78,6 +78,7 @@ MessageBar::MessageBar(QWidget* parent)
     emit closed();
   });
   connect(&timer_, &QTimer::timeout, this, &MessageBar::dismiss);
+  theme::follow_palette(this, this, [this] { updateIcon(); });
   hide();
 }
 
@@ -132,11 +133,6 @@ void MessageBar::updateIcon() {
   icon_->setPixmap(themed_icon(names[static_cast<int>(severity_)]).pixmap(16, 16));
 }
 
-void MessageBar::changeEvent(QEvent* event) {
-  QWidget::changeEvent(event);
-  if (event->type() == QEvent::PaletteChange) updateIcon();
-}
-
 namespace {
 
 constexpr int kBarSteps = 1000;
@@ -172,10 +168,8 @@ JobPanel::JobPanel(QWidget* parent)
   rows->setLayout(layout_);
   layout_->setContentsMargins(0, 0, 0, 0);
   layout_->setSpacing(theme::kSpacing);
-  scroll_->setFrameShape(QFrame::NoFrame);
-  scroll_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  set_up_scrolling(scroll_);
   scroll_->setFocusPolicy(Qt::NoFocus);
-  scroll_->setWidgetResizable(true);
   scroll_->setWidget(rows);
   scroll_->hide();
   auto* all = new QVBoxLayout(this);
@@ -183,7 +177,7 @@ JobPanel::JobPanel(QWidget* parent)
   all->addWidget(idle_, 0, Qt::AlignTop);
   all->addWidget(scroll_);
   fitHeight();
-  updateColors();
+  theme::mute(idle_);
 }
 
 void JobPanel::addJob(quint64 id, const QString& title) {
@@ -207,10 +201,7 @@ void JobPanel::addJob(quint64 id, const QString& title) {
   row.stage->setObjectName(name + ".stage");
   row.stage->setFullText(tr("waiting"));
 
-  auto* grid = new QGridLayout(row.widget);
-  grid->setContentsMargins(0, 0, 0, 0);
-  grid->setHorizontalSpacing(theme::kSpacing);
-  grid->setVerticalSpacing(kRowSpacing);
+  auto* grid = make_grid(row.widget, theme::kSpacing, kRowSpacing);
   grid->addWidget(title_label, 0, 0);
   grid->addWidget(row.finish, 0, 1, 3, 1, Qt::AlignVCenter);
   grid->addWidget(row.cancel, 0, 2, 3, 1, Qt::AlignVCenter);
@@ -219,8 +210,8 @@ void JobPanel::addJob(quint64 id, const QString& title) {
   layout_->addWidget(row.widget);
   connect(row.finish, &QToolButton::clicked, this, [this, id] { emit finishRequested(id); });
   connect(row.cancel, &QToolButton::clicked, this, [this, id] { emit cancelRequested(id); });
+  theme::mute(row.stage);
   rows_.emplace(id, row);
-  updateColors();
   showRows();
 }
 
@@ -281,14 +272,7 @@ void JobPanel::fitHeight() {
 
 void JobPanel::changeEvent(QEvent* event) {
   QWidget::changeEvent(event);
-  if (event->type() == QEvent::PaletteChange) updateColors();
   if (event->type() == QEvent::FontChange) fitHeight();
-}
-
-void JobPanel::updateColors() {
-  const QPalette quiet = theme::text_palette(theme::muted_text(palette()));
-  idle_->setPalette(quiet);
-  for (const auto& [id, row] : rows_) row.stage->setPalette(quiet);
 }
 
 }  // namespace episcope

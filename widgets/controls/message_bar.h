@@ -54,7 +54,6 @@ class MessageBar : public QWidget {
 
  protected:
   void paintEvent(QPaintEvent*) override { paint_message_ground(*this, accent()); }
-  void changeEvent(QEvent* event) override;
 
  private:
   struct Button {
@@ -125,7 +124,6 @@ class JobPanel : public QWidget {
 
   [[nodiscard]] Row* find(quint64 id);
   void end(quint64 id, const QString& stage, bool cancelled);
-  void updateColors();
   void showRows();
   void fitHeight();
 

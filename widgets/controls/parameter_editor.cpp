@@ -148,8 +148,7 @@ class FlagEditor : public ParameterEditor {
   [[nodiscard]] ParameterValue value() const override { return check_->isChecked(); }
 
   void setValue(const ParameterValue& value) override {
-    const QSignalBlocker blocker(check_);
-    if (const auto* flag = std::get_if<bool>(&value)) check_->setChecked(*flag);
+    if (const auto* flag = std::get_if<bool>(&value)) Quietly(check_)->setChecked(*flag);
   }
 
  private:
@@ -179,8 +178,7 @@ class ChoiceEditor : public ParameterEditor {
   void setValue(const ParameterValue& value) override {
     const auto* text = std::get_if<std::string>(&value);
     if (!text || combo_->findData(text_of(*text)) < 0) return;
-    const QSignalBlocker blocker(combo_);
-    combo_->setCurrentIndex(combo_->findData(text_of(*text)));
+    Quietly(combo_)->setCurrentIndex(combo_->findData(text_of(*text)));
   }
 
  private:

@@ -37,10 +37,7 @@ ParameterForm::ParameterForm(QWidget* parent) : QWidget(parent) {
 }
 
 QGridLayout* ParameterForm::addGrid(QWidget* place) {
-  auto* grid = new QGridLayout(place);
-  grid->setContentsMargins(0, 0, 0, 0);
-  grid->setHorizontalSpacing(theme::kSpacing);
-  grid->setVerticalSpacing(kLineSpacing);
+  auto* grid = make_grid(place, theme::kSpacing, kLineSpacing);
   grid->setColumnStretch(0, 2);
   grid->setColumnStretch(1, 3);
   return grid;

@@ -306,7 +306,7 @@ ParameterHelp::ParameterHelp(const ParameterDescription& description, const Para
   const QString caption = parameter_caption(description.key);
   if (caption.isEmpty()) return;
   layout->addWidget(new PictureLabel(description, value, this));
-  add(caption)->setPalette(theme::text_palette(theme::muted_text(palette())));
+  theme::mute(add(caption));
 }
 
 void ParameterHelp::showAt(const QPoint& corner) {

@@ -3,11 +3,14 @@
 
 #include "widgets/controls/tool_button.h"
 
+#include <QEvent>
 #include <QPainter>
 #include <QStyleOption>
+#include <QWidget>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace episcope::theme {
 namespace {
@@ -57,6 +60,21 @@ QColor text_of_contrast(const QPalette& palette, double contrast, double least) 
   return text;
 }
 
+class PaletteFollower : public QObject {
+ public:
+  PaletteFollower(QObject* parent, std::function<void()> follow)
+      : QObject(parent), follow_(std::move(follow)) {}
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override {
+    if (event->type() == QEvent::PaletteChange) follow_();
+    return QObject::eventFilter(watched, event);
+  }
+
+ private:
+  std::function<void()> follow_;
+};
+
 }  // namespace
 
 bool is_dark(const QPalette& palette) {
@@ -80,6 +98,18 @@ QPalette text_palette(const QColor& color) {
   QPalette palette;
   palette.setColor(QPalette::WindowText, color);
   return palette;
+}
+
+void follow_palette(QWidget* widget, QObject* context, std::function<void()> follow) {
+  follow();
+  widget->installEventFilter(new PaletteFollower(context, std::move(follow)));
+}
+
+void mute(QWidget* label) {
+  QWidget* parent = label->parentWidget();
+  follow_palette(parent, label, [label, parent] {
+    label->setPalette(text_palette(muted_text(parent->palette())));
+  });
 }
 
 QColor muted_text(const QPalette& palette) {

@@ -8,7 +8,11 @@
 #include <QRectF>
 #include <QString>
 
+#include <functional>
+
+class QObject;
 class QPainter;
+class QWidget;
 
 namespace episcope::theme {
 
@@ -40,6 +44,10 @@ inline constexpr int kMargin = 8;   ///< Around groups.
 
 /// Palette that sets only the color of labels and inherits the rest.
 [[nodiscard]] QPalette text_palette(const QColor& color);
+/// Calls `follow` now and whenever the palette of a widget changes, as long as there is `context`.
+void follow_palette(QWidget* widget, QObject* context, std::function<void()> follow);
+/// Gives a label `muted_text` in the palette of its parent, whatever that becomes.
+void mute(QWidget* label);
 
 /// Contrast ratio of two opaque colors, 1 … 21 (WCAG 2.1, relative luminance).
 [[nodiscard]] double contrast_ratio(const QColor& a, const QColor& b);

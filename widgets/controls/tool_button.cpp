@@ -109,12 +109,16 @@ QToolButton* make_tool_button(const ToolButtonText& text, QWidget* parent) {
   return button;
 }
 
-QToolButton* make_action_button(QAction* action, const QString& object_name, QWidget* parent) {
-  auto* button = named(object_name, new QToolButton(parent));
+QToolButton* make_action_button(QAction* action, QWidget* parent) {
+  auto* button = named("button." + action->objectName(), new QToolButton(parent));
   button->setDefaultAction(action);
   button->setIconSize({16, 16});
   button->setFocusPolicy(Qt::NoFocus);
   return button;
+}
+
+void add_action_button(QBoxLayout* row, QAction* action) {
+  row->insertWidget(row->count() - 1, make_action_button(action, row->parentWidget()));
 }
 
 void follow_tip(QWidget* widget, const QAction* action) {

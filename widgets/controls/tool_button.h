@@ -9,6 +9,7 @@
 #include <QString>
 
 class QAction;
+class QBoxLayout;
 class QToolButton;
 class QWidget;
 
@@ -48,9 +49,11 @@ struct ToolButtonText {
 /// A flat tool button in the common style.
 [[nodiscard]] QToolButton* make_tool_button(const ToolButtonText& text, QWidget* parent);
 
-/// A flat tool button of an action, with its icon, tip and state; takes no focus.
-[[nodiscard]] QToolButton* make_action_button(QAction* action, const QString& object_name,
-                                              QWidget* parent);
+/// A flat tool button of an action, "button.ID", with its icon, tip and state; takes no focus.
+[[nodiscard]] QToolButton* make_action_button(QAction* action, QWidget* parent);
+
+/// Adds such a button before the last item of a row, which is in place already.
+void add_action_button(QBoxLayout* row, QAction* action);
 
 /// Keeps a widget's tool tip equal to its command's, including keys.
 void follow_tip(QWidget* widget, const QAction* action);

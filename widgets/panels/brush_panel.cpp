@@ -9,9 +9,7 @@
 #include <QComboBox>
 #include <QFormLayout>
 #include <QLabel>
-#include <QSignalBlocker>
 #include <QSpinBox>
-#include <QStandardItemModel>
 #include <QToolButton>
 
 #include <cmath>
@@ -27,14 +25,12 @@ constexpr int kFirstOpacity = 70;
 
 BrushPanel::BrushPanel(QWidget* parent)
     : QWidget(parent),
-      buttons_(new QHBoxLayout),
+      buttons_(make_row({kRoom}, {.spacing = 2})),
       protects_(named("brush.protect", new QCheckBox(tr("Protect other labels"), this))),
       bound_(named("fill.bound", new QComboBox(this))),
       tolerance_(named("fill.tolerance", new QDoubleSpinBox(this))),
       opacity_(named("brush.opacity", new QSlider(Qt::Horizontal, this))) {
   setObjectName("brushPanel");
-  buttons_->setSpacing(2);
-  buttons_->addStretch(1);
   auto* form = new QFormLayout;
   form->setContentsMargins(0, 0, 0, 0);
   form->setSpacing(theme::kSpacing);
@@ -72,8 +68,7 @@ BrushPanel::SizeRow BrushPanel::addSize(QFormLayout& form, const QString& name, 
   form.addRow(text, line);
   connect(row.slider, &QSlider::valueChanged, row.spin, &QSpinBox::setValue);
   connect(row.spin, &QSpinBox::valueChanged, this, [this, row, edited](int diameter_px) {
-    const QSignalBlocker blocker(row.slider);
-    row.slider->setValue(diameter_px);
+    Quietly(row.slider)->setValue(diameter_px);
     emit(this->*edited)(diameter_px);
   });
   return row;
@@ -98,19 +93,9 @@ void BrushPanel::addFill(QFormLayout& form) {
   setSegmentationAvailable(false);
 }
 
-void BrushPanel::addAction(QAction* action, const QString& object_name) {
-  buttons_->insertWidget(buttons_->count() - 1, make_action_button(action, object_name, this));
-}
-
-void BrushPanel::addGap() {
-  buttons_->insertSpacing(buttons_->count() - 1, theme::kMargin);
-}
-
 void BrushPanel::setSize(const SizeRow& row, double diameter_px) {
-  const QSignalBlocker slider(row.slider);
-  const QSignalBlocker spin(row.spin);
-  row.slider->setValue(static_cast<int>(std::lround(diameter_px)));
-  row.spin->setValue(static_cast<int>(std::lround(diameter_px)));
+  Quietly(row.slider)->setValue(static_cast<int>(std::lround(diameter_px)));
+  Quietly(row.spin)->setValue(static_cast<int>(std::lround(diameter_px)));
 }
 
 void BrushPanel::setSizeKeys(const QString& keys) {
@@ -123,29 +108,13 @@ void BrushPanel::setSizeKeys(const QString& keys) {
   }
 }
 
-void BrushPanel::setProtectsOthers(bool protects) {
-  const QSignalBlocker blocker(protects_);
-  protects_->setChecked(protects);
-}
-
-void BrushPanel::setScribbleOpacity(double opacity) {
-  const QSignalBlocker blocker(opacity_);
-  opacity_->setValue(static_cast<int>(std::lround(100 * opacity)));
-}
-
 void BrushPanel::setSegmentationAvailable(bool is_available) {
-  auto* model = qobject_cast<QStandardItemModel*>(bound_->model());
-  model->item(1)->setEnabled(is_available);
+  set_item_enabled(bound_, 1, is_available);
   if (!is_available) bound_->setCurrentIndex(0);
 }
 
 FillBound BrushPanel::fillBound() const {
   return static_cast<FillBound>(bound_->currentData().toInt());
-}
-
-void BrushPanel::setFillTolerance(double tolerance) {
-  const QSignalBlocker blocker(tolerance_);
-  tolerance_->setValue(tolerance);
 }
 
 AnnotationBar::AnnotationBar(QWidget* parent)
@@ -154,7 +123,7 @@ AnnotationBar::AnnotationBar(QWidget* parent)
       by_(named("carry.by", new QComboBox(this))),
       carry_state_(named("carry.state", new ElidedLabel(this))),
       file_state_(named("annotation.file", new ElidedLabel(this, Qt::ElideMiddle))),
-      buttons_(new QHBoxLayout) {
+      buttons_(make_row({{file_state_, 1}}, {.spacing = 2})) {
   setObjectName("annotationBar");
   carried_->setToolTip(
       tr("Shows the scribbles of every view on all others, as stripes: propagated along rays, "
@@ -164,8 +133,6 @@ AnnotationBar::AnnotationBar(QWidget* parent)
   by_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
   by_->setToolTip(tr("Disparity along which scribbles are propagated"));
   auto* carry = make_row({carried_, {by_, 1}}, {.spacing = theme::kSpacing});
-  buttons_->setSpacing(2);
-  buttons_->addWidget(file_state_, 1);
   make_column(this, {carry, carry_state_, buttons_},
               {.margins = {0, 0, 0, theme::kSpacing}, .spacing = 4});
   connect(carried_, &QCheckBox::toggled, this, &AnnotationBar::carriedEdited);
@@ -177,22 +144,12 @@ AnnotationBar::AnnotationBar(QWidget* parent)
   setCarryState({});
 }
 
-void AnnotationBar::addAction(QAction* action, const QString& object_name) {
-  buttons_->insertWidget(buttons_->count() - 1, make_action_button(action, object_name, this));
-}
-
 void AnnotationBar::setSources(bool has_estimate, bool has_truth) {
-  auto* model = qobject_cast<QStandardItemModel*>(by_->model());
   const bool has[] = {has_estimate, has_truth};
-  for (int i = 0; i < 2; ++i) model->item(i)->setEnabled(has[i]);
+  for (int i = 0; i < 2; ++i) set_item_enabled(by_, i, has[i]);
   const int wanted = is_chosen_ ? by_->currentIndex() : 0;
   by_->setCurrentIndex(has[wanted] || !has[1 - wanted] ? wanted : 1 - wanted);
   by_->setEnabled(has_estimate || has_truth);
-}
-
-void AnnotationBar::setCarried(bool is_carried) {
-  const QSignalBlocker blocker(carried_);
-  carried_->setChecked(is_carried);
 }
 
 void AnnotationBar::setCarryState(const QString& state) {

@@ -3,6 +3,9 @@
 
 #include "widgets/canvas/canvas_tool.h"
 #include "widgets/controls/labels.h"
+#include "widgets/controls/layout.h"
+#include "widgets/controls/theme.h"
+#include "widgets/controls/tool_button.h"
 
 #include <QCheckBox>
 #include <QDoubleSpinBox>
@@ -29,16 +32,16 @@ class BrushPanel : public QWidget {
   explicit BrushPanel(QWidget* parent = nullptr);
 
   /// Adds a button for an action, in order of the calls, with a gap before another group.
-  void addAction(QAction* action, const QString& object_name);
-  void addGap();
+  void addAction(QAction* action) { add_action_button(buttons_, action); }
+  void addGap() { buttons_->insertSpacing(buttons_->count() - 1, theme::kMargin); }
   void setBrushSize(double diameter_px) { setSize(brush_, diameter_px); }
   void setEraserSize(double diameter_px) { setSize(eraser_, diameter_px); }
   /// Keys that change the size, for the tool tips; empty without keys.
   void setSizeKeys(const QString& keys);
-  void setProtectsOthers(bool protects);
-  void setScribbleOpacity(double opacity);
+  void setProtectsOthers(bool protects) { Quietly(protects_)->setChecked(protects); }
+  void setScribbleOpacity(double opacity) { Quietly(opacity_)->setValue(qRound(100 * opacity)); }
   /// In units of the noise of the view.
-  void setFillTolerance(double tolerance);
+  void setFillTolerance(double tolerance) { Quietly(tolerance_)->setValue(tolerance); }
   /// Without a segmentation, only likeness can limit fills.
   void setSegmentationAvailable(bool is_available);
 
@@ -84,10 +87,10 @@ class AnnotationBar : public QWidget {
   explicit AnnotationBar(QWidget* parent = nullptr);
 
   /// Adds a button for an action, in order of the calls.
-  void addAction(QAction* action, const QString& object_name);
+  void addAction(QAction* action) { add_action_button(buttons_, action); }
   /// Enables the available disparities.
   void setSources(bool has_estimate, bool has_truth);
-  void setCarried(bool is_carried);
+  void setCarried(bool is_carried) { Quietly(carried_)->setChecked(is_carried); }
   /// State of carrying, e.g. "carrying …"; empty = none.
   void setCarryState(const QString& state);
   /// File name, and whether the file is up to date.

@@ -279,9 +279,7 @@ CaptureObjects::CaptureObjects(QWidget* parent)
                           tr("Adds one more object, with a mesh of its own"));
   auto* open = make_button(this, "capture.open", tr("Open mesh…"),
                            tr("A scan of an object in the light field: PLY, OBJ or STL"));
-  auto* layout = new QGridLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setVerticalSpacing(theme::kSpacing / 2);
+  auto* layout = make_grid(this, -1, theme::kSpacing / 2);
   layout->setColumnStretch(0, 1);
   layout->addWidget(names_, 0, 0);
   layout->addWidget(add, 0, 1);
@@ -312,40 +310,25 @@ void CaptureObjects::setObjects(const QStringList& names, int current) {
   remove_->setEnabled(is_there);
 }
 
-namespace {
-
-ElidedLabel* make_state(QWidget* parent, const char* name) {
-  auto* label = named(name, new ElidedLabel(parent, Qt::ElideRight));
-  return label;
-}
-
-}  // namespace
-
 PhotographSteps::PhotographSteps(QWidget* parent)
     : QWidget(parent),
-      camera_(make_state(this, "capture.camera")),
-      alignment_(make_state(this, "capture.alignment")),
+      camera_(named("capture.camera", new ElidedLabel(this))),
+      alignment_(named("capture.alignment", new ElidedLabel(this))),
       lens_(named("capture.lens", new QPushButton(tr("Lens"), this))),
       rectify_(named("capture.rectify", new QPushButton(tr("Rectify…"), this))) {
   rectify_->setToolTip(
       tr("Rectifies the open photographs into a light field with aligned rows and columns. Pairs "
          "picked in them are carried over."));
   auto* menu = new QMenu(lens_);
-  connect(menu->addAction(tr("Calibrate from photographs…")), &QAction::triggered, this,
-          &PhotographSteps::calibrateRequested);
-  connect(menu->addAction(tr("Open a camera…")), &QAction::triggered, this,
-          &PhotographSteps::openCameraRequested);
-  save_ = menu->addAction(tr("Save the camera…"));
-  connect(save_, &QAction::triggered, this, &PhotographSteps::saveCameraRequested);
+  menu->addAction(tr("Calibrate from photographs…"), this, &PhotographSteps::calibrateRequested);
+  menu->addAction(tr("Open a camera…"), this, &PhotographSteps::openCameraRequested);
+  save_ = menu->addAction(tr("Save the camera…"), this, &PhotographSteps::saveCameraRequested);
   menu->addSeparator();
-  connect(menu->addAction(tr("Make a demo to try it with…")), &QAction::triggered, this,
-          &PhotographSteps::demoRequested);
+  menu->addAction(tr("Make a demo to try it with…"), this, &PhotographSteps::demoRequested);
   lens_->setMenu(menu);
   connect(rectify_, &QPushButton::clicked, this, &PhotographSteps::rectifyRequested);
 
-  auto* layout = new QGridLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setVerticalSpacing(theme::kSpacing / 2);
+  auto* layout = make_grid(this, -1, theme::kSpacing / 2);
   layout->setColumnStretch(0, 1);
   layout->addWidget(camera_, 0, 0);
   layout->addWidget(lens_, 0, 1);

@@ -63,9 +63,7 @@ ColorBar::ColorBar(QWidget* parent)
 
   auto* foot = make_row({{invalid_, 1}, lock_, automatic_, own_}, {.spacing = 0});
   auto* ends = make_row({min_, kRoom, max_}, {.spacing = theme::kSpacing});
-  auto* layout = new QGridLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setVerticalSpacing(3);
+  auto* layout = make_grid(this, -1, 3);
   layout->addWidget(title_, 0, 0);
   layout->addWidget(ramp_, 1, 0);
   layout->addWidget(swatches_, 1, 0);
@@ -127,8 +125,7 @@ void ColorBar::setMarker(double value) {
 }
 
 void ColorBar::setRangeLocked(bool locked) {
-  const QSignalBlocker blocker(lock_);
-  lock_->setChecked(locked);
+  Quietly(lock_)->setChecked(locked);
   lock_->setIcon(themed_icon(locked ? "lock" : "unlock"));
 }
 
@@ -148,10 +145,8 @@ void ColorBar::editRange() {
     const bool moved_min = sender() == min_;
     (moved_min ? range.max : range.min) = moved_min ? range.min + least : range.max - least;
   }
-  const QSignalBlocker min_blocker(min_);
-  const QSignalBlocker max_blocker(max_);
-  min_->setValue(range.min);
-  max_->setValue(range.max);
+  Quietly(min_)->setValue(range.min);
+  Quietly(max_)->setValue(range.max);
   render::Shading shading = ramp_->shading();
   shading.range = range;
   ramp_->setShading(shading);

@@ -7,7 +7,6 @@
 #include "widgets/controls/theme.h"
 #include "widgets/controls/tool_button.h"
 
-#include <QEvent>
 #include <QGridLayout>
 #include <QLabel>
 #include <QRegularExpression>
@@ -70,13 +69,12 @@ InfoPanel::InfoPanel(QWidget* parent)
   QFont bold = font();
   bold.setBold(true);
   title_->setFont(bold);
-  scroll_->setFrameShape(QFrame::NoFrame);
-  scroll_->setWidgetResizable(true);
-  scroll_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  set_up_scrolling(scroll_);
   scroll_->viewport()->setAutoFillBackground(false);
   auto* layout = make_column(this, {title_, {scroll_, 1}}, {.spacing = 4});
   layout->addWidget(conventions_, 0, Qt::AlignLeft);
   setInfo({}, {}, {});
+  theme::follow_palette(this, this, [this] { rebuild(); });
 }
 
 void InfoPanel::setInfo(const QString& title, const std::vector<InfoRow>& rows,
@@ -91,11 +89,6 @@ void InfoPanel::setInfo(const QString& title, const std::vector<InfoRow>& rows,
   rebuild();
 }
 
-void InfoPanel::changeEvent(QEvent* event) {
-  QWidget::changeEvent(event);
-  if (event->type() == QEvent::PaletteChange) rebuild();
-}
-
 // A short line with the whole text behind its arrow; else the text, of which a click shows all.
 void InfoPanel::addWarning(const InfoWarning& warning, QAction* action, QGridLayout* grid) {
   QWidget* body = grid->parentWidget();
@@ -107,10 +100,7 @@ void InfoPanel::addWarning(const InfoWarning& warning, QAction* action, QGridLay
   label->setFullText(with_units(warning.brief.isEmpty() ? warning.text : warning.brief));
   label->setObjectName("info.warning");
   if (!warning.is_note) label->setPalette(theme::text_palette(theme::warning_text(palette())));
-  auto* layout = new QGridLayout(line);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setHorizontalSpacing(theme::kSpacing);
-  layout->setVerticalSpacing(0);
+  auto* layout = make_grid(line, theme::kSpacing, 0);
   layout->setColumnStretch(1, 1);
   layout->addWidget(icon, 0, 0);
   layout->addWidget(label, 0, 1);
@@ -181,10 +171,7 @@ void InfoPanel::addRow(const InfoRow& row, QGridLayout* grid) {
 void InfoPanel::rebuild() {
   auto* body = new QWidget;
   body->setPalette(palette());
-  auto* grid = new QGridLayout(body);
-  grid->setContentsMargins(0, 0, 0, 0);
-  grid->setHorizontalSpacing(theme::kSpacing);
-  grid->setVerticalSpacing(3);
+  auto* grid = make_grid(body, theme::kSpacing, 3);
   grid->setColumnStretch(1, 1);
   // First of all: below the rows they would be out of sight.
   for (auto warning = warnings_.begin(); warning != warnings_.end(); ++warning) {

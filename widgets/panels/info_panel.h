@@ -52,9 +52,6 @@ class InfoPanel : public QWidget {
   /// warning offers it.
   void setConventionsAction(QAction* action) { conventions_->setDefaultAction(action); }
 
- protected:
-  void changeEvent(QEvent* event) override;
-
  private:
   void rebuild();
   void addWarning(const InfoWarning& warning, QAction* action, QGridLayout* grid);

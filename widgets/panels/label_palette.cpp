@@ -32,7 +32,7 @@ int label_of(const QTreeWidgetItem* item) {
 LabelPalette::LabelPalette(QWidget* parent)
     : QWidget(parent),
       filter_(named("labels.filter", new QLineEdit(this))),
-      tree_(named("labels.tree", new QTreeWidget(this))),
+      tree_(make_list("labels.tree", tr("Labels"), this)),
       hint_(named("labels.hint", new QLabel(this))),
       add_(make_tool_button({"labels.add", "add", tr("Add a label"), tr("Add")}, this)),
       rename_(make_tool_button({"labels.rename", "rename", tr("Rename this label"), tr("Rename")},
@@ -55,21 +55,14 @@ LabelPalette::LabelPalette(QWidget* parent)
 }
 
 void LabelPalette::setUpTree() {
-  tree_->setAccessibleName(tr("Labels"));
   tree_->viewport()->installEventFilter(this);
   tree_->setColumnCount(kLabelColumns);
   tree_->setHeaderHidden(true);
-  tree_->setRootIsDecorated(false);
-  tree_->setUniformRowHeights(true);
-  tree_->setTextElideMode(Qt::ElideMiddle);  // long names often differ at their end
   tree_->setIconSize({kSwatchSize, kSwatchSize});
   tree_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   tree_->setContextMenuPolicy(Qt::CustomContextMenu);
-  tree_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   tree_->setDragDropMode(QAbstractItemView::InternalMove);
   tree_->header()->setMinimumSectionSize(22);
-  tree_->header()->setStretchLastSection(false);
-  tree_->header()->setSectionResizeMode(QHeaderView::ResizeToContents);
   tree_->header()->setSectionResizeMode(kLabelName, QHeaderView::Stretch);
   connect(tree_, &QTreeWidget::currentItemChanged, this, [this](QTreeWidgetItem* item) {
     if (!item) return;
@@ -86,11 +79,7 @@ void LabelPalette::setUpTree() {
 }
 
 void LabelPalette::setUpActions() {
-  auto* remove = named("labels.removeAction", new QAction(tree_));
-  remove->setShortcut(QKeySequence::Delete);
-  remove->setShortcutContext(Qt::WidgetShortcut);
-  tree_->addAction(remove);
-  connect(remove, &QAction::triggered, remove_, &QToolButton::click);
+  connect(add_delete_action(tree_), &QAction::triggered, remove_, &QToolButton::click);
   connect(add_, &QToolButton::clicked, this, &LabelPalette::addRequested);
   connect(rename_, &QToolButton::clicked, this, [this] { editName(current_); });
   connect(remove_, &QToolButton::clicked, this, [this] { emit removeRequested(current_); });

@@ -92,26 +92,20 @@ LabelReviewPanel::LabelReviewPanel(QWidget* parent)
 
 QTreeWidget* LabelReviewPanel::makeList(const QString& name, const QString& title,
                                         const QStringList& columns) {
-  auto* list = named(name, new QTreeWidget(this));
-  list->setAccessibleName(title);
+  auto* list = make_list(name, title, this);
   list->setHeaderLabels(columns);
-  list->setRootIsDecorated(false);
-  list->setUniformRowHeights(true);
   list->setIconSize({kSwatchSize, kSwatchSize});
-  list->setTextElideMode(Qt::ElideMiddle);
   list->setMinimumHeight(60);
-  list->header()->setStretchLastSection(false);
   list->header()->setMinimumSectionSize(30);
-  list->header()->setSectionResizeMode(QHeaderView::ResizeToContents);
   list->header()->setSectionResizeMode(0, QHeaderView::Stretch);
   // Enter on a row does what a click does.
   connect(list, &QTreeWidget::itemActivated, list, &QTreeWidget::itemClicked);
   return list;
 }
 
-void LabelReviewPanel::addAction(QAction* action, const QString& object_name) {
+void LabelReviewPanel::addAction(QAction* action) {
   const int place = actions_->count();
-  actions_->addWidget(make_action_button(action, object_name, this), place / kActionColumns,
+  actions_->addWidget(make_action_button(action, this), place / kActionColumns,
                       place % kActionColumns, Qt::AlignLeft);
 }
 
@@ -131,8 +125,7 @@ void LabelReviewPanel::setDoubts(const std::vector<Doubt>& doubts) {
 }
 
 void LabelReviewPanel::setCurrentDoubt(int index) {
-  const QSignalBlocker blocker(doubts_);
-  doubts_->setCurrentItem(index < 0 ? nullptr : doubts_->topLevelItem(index));
+  Quietly(doubts_)->setCurrentItem(index < 0 ? nullptr : doubts_->topLevelItem(index));
 }
 
 void LabelReviewPanel::setRows(const std::vector<Row>& rows, int current_label) {

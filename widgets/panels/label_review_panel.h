@@ -52,7 +52,7 @@ class LabelReviewPanel : public QWidget {
   explicit LabelReviewPanel(QWidget* parent = nullptr);
 
   /// Adds a button above the lists, in order of the calls.
-  void addAction(QAction* action, const QString& object_name);
+  void addAction(QAction* action);
   /// Sentence above the lists; empty = none.
   void setNote(const QString& sentence);
   void setDoubts(const std::vector<Doubt>& doubts);

@@ -17,17 +17,12 @@ namespace {
 
 enum MeasureColumn { kLineName, kDisparity, kDepth, kPlace };
 
-void add_button(QBoxLayout* row, QAction* action, QWidget* parent) {
-  row->insertWidget(row->count() - 1,
-                    make_action_button(action, "button." + action->objectName(), parent));
-}
-
 }  // namespace
 
 MeasurePanel::MeasurePanel(QWidget* parent)
     : QWidget(parent),
       actions_(make_row({kRoom}, {.spacing = 2})),
-      list_(named("measure.list", new QTreeWidget(this))),
+      list_(make_list("measure.list", tr("Measured lines"), this)),
       hint_(named("measure.hint", new QLabel(this))),
       chosen_actions_(new QVBoxLayout) {
   setObjectName("measurePanel");
@@ -43,21 +38,10 @@ MeasurePanel::MeasurePanel(QWidget* parent)
 }
 
 void MeasurePanel::setUpList() {
-  list_->setAccessibleName(tr("Measured lines"));
   list_->setHeaderLabels({tr("Name"), tr("Disparity"), tr("Depth"), tr("Place")});
-  list_->setRootIsDecorated(false);
-  list_->setUniformRowHeights(true);
-  list_->setTextElideMode(Qt::ElideMiddle);
-  list_->setEditTriggers(QAbstractItemView::NoEditTriggers);
-  list_->header()->setStretchLastSection(false);
-  list_->header()->setSectionResizeMode(QHeaderView::ResizeToContents);
   list_->header()->setSectionResizeMode(kLineName, QHeaderView::Stretch);
-  auto* remove = new QAction(list_);
-  remove->setShortcut(QKeySequence::Delete);
-  remove->setShortcutContext(Qt::WidgetShortcut);
-  list_->addAction(remove);
   const auto index_of = [this](QTreeWidgetItem* item) { return list_->indexOfTopLevelItem(item); };
-  connect(remove, &QAction::triggered, this, [this, index_of] {
+  connect(add_delete_action(list_), &QAction::triggered, this, [this, index_of] {
     if (QTreeWidgetItem* item = list_->currentItem()) emit removeRequested(index_of(item));
   });
   const auto choose = [this, index_of](QTreeWidgetItem* item) { emit chosen(index_of(item)); };
@@ -73,12 +57,8 @@ void MeasurePanel::setUpList() {
           });
 }
 
-void MeasurePanel::addAction(QAction* action) {
-  add_button(actions_, action, this);
-}
-
 void MeasurePanel::addChosenAction(QAction* action) {
-  auto* button = make_action_button(action, "button." + action->objectName(), this);
+  auto* button = make_action_button(action, this);
   button->setToolButtonStyle(Qt::ToolButtonTextOnly);
   chosen_actions_->addWidget(button);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "widgets/controls/tool_button.h"
+
 #include <QLabel>
 #include <QString>
 #include <QWidget>
@@ -32,7 +34,7 @@ class MeasurePanel : public QWidget {
 
   /// Adds a button above the list, or (`addChosenAction`) below it for the chosen measurement, in
   /// order of the calls.
-  void addAction(QAction* action);
+  void addAction(QAction* action) { add_action_button(actions_, action); }
   void addChosenAction(QAction* action);
   void setRows(const std::vector<Row>& rows, int current);
   /// Text shown without measurements.

@@ -11,7 +11,6 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDialogButtonBox>
-#include <QEvent>
 #include <QGridLayout>
 #include <QLabel>
 #include <QListWidget>
@@ -63,9 +62,7 @@ MethodPanel::MethodPanel(QWidget* parent)
   live_status_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
   run_->setDefault(true);
 
-  scroll_->setFrameShape(QFrame::NoFrame);
-  scroll_->setWidgetResizable(true);
-  scroll_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  set_up_scrolling(scroll_);
   auto* sheet = new QWidget(scroll_);
   make_column(sheet, {form_, kRoom});
   scroll_->setWidget(sheet);
@@ -75,33 +72,18 @@ MethodPanel::MethodPanel(QWidget* parent)
 
   auto* buttons = new QGridLayout;
   buttons->setSpacing(theme::kSpacing);
-  buttons->addLayout(layRun(), 0, 0);
+  buttons->addLayout(make_row({{run_, 1}, live_}, {.spacing = theme::kSpacing}), 0, 0);
   buttons->addWidget(cancel_, 0, 1);
   buttons->addWidget(reset_, 1, 0);
   buttons->addWidget(copy_, 1, 1);
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(theme::kSpacing);
-  for (QWidget* widget : std::initializer_list<QWidget*>{method_, summary_, reference_}) {
-    layout->addWidget(widget);
-  }
-  layout->addWidget(scroll_, 1);
-  layout->addLayout(layViews());
-  layout->addLayout(buttons);
+  auto* views = make_row({all_views_, {live_status_, 1}}, {.spacing = theme::kSpacing});
+  make_column(this, {method_, summary_, reference_, {scroll_, 1}, views, buttons},
+              {.spacing = theme::kSpacing});
   connectControls();
   setRunning(false);
   setMethods({});
-  updateColors();
-}
-
-QBoxLayout* MethodPanel::layViews() {
-  auto* row = make_row({all_views_, {live_status_, 1}}, {.spacing = theme::kSpacing});
-  return row;
-}
-
-QBoxLayout* MethodPanel::layRun() {
-  auto* row = make_row({{run_, 1}, live_}, {.spacing = theme::kSpacing});
-  return row;
+  theme::mute(reference_);
+  theme::mute(live_status_);
 }
 
 void MethodPanel::connectControls() {
@@ -142,9 +124,7 @@ void MethodPanel::showMethod(int index) {
   if (shown_ >= 0) kept_values_[methods_[shown_].id] = former;
   shown_ = index;
   const bool has_method = index >= 0;
-  for (QWidget* widget : std::initializer_list<QWidget*>{method_, reset_}) {
-    widget->setEnabled(has_method);
-  }
+  method_->setEnabled(has_method);
   const MethodDescription method = has_method ? methods_[index] : MethodDescription{};
   summary_->setText(schema_text(method.summary));
   reference_->setText(schema_text(method.reference));
@@ -220,17 +200,6 @@ RunRequest MethodPanel::request() const {
   return {methods_[shown_].id, form_->values(), all_views_->isEnabled() && all_views_->isChecked()};
 }
 
-void MethodPanel::changeEvent(QEvent* event) {
-  QWidget::changeEvent(event);
-  if (event->type() == QEvent::PaletteChange) updateColors();
-}
-
-void MethodPanel::updateColors() {
-  for (QLabel* label : std::initializer_list<QLabel*>{reference_, live_status_}) {
-    label->setPalette(theme::text_palette(theme::muted_text(palette())));
-  }
-}
-
 namespace {
 
 constexpr QSize kSize(520, 420);
@@ -258,12 +227,9 @@ BatchDialog::BatchDialog(const std::vector<Row>& methods, const std::vector<Row>
   layout->addWidget(new QLabel(tr("Light fields"), this), 0, 1);
   layout->addWidget(methods_, 1, 0);
   layout->addWidget(scenes_, 1, 1);
-  auto* answer = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
-  run_ = answer->addButton(QString(), QDialogButtonBox::AcceptRole);
-  run_->setObjectName("batch.run");
-  layout->addWidget(answer, 2, 0, 1, 2);
-  connect(answer, &QDialogButtonBox::accepted, this, &QDialog::accept);
-  connect(answer, &QDialogButtonBox::rejected, this, &QDialog::reject);
+  auto* answers = make_answers(this, "batch.run", {});
+  run_ = answers->findChild<QPushButton*>("batch.run");
+  layout->addWidget(answers, 2, 0, 1, 2);
   resize(kSize);
   showCount();
 }

@@ -83,16 +83,10 @@ class MethodPanel : public QWidget {
   /// The user switched Live.
   void liveToggled(bool is_live);
 
- protected:
-  void changeEvent(QEvent* event) override;
-
  private:
-  [[nodiscard]] QBoxLayout* layViews();
-  [[nodiscard]] QBoxLayout* layRun();
   void connectControls();
   void showMethod(int index);
   void updateReset() { reset_->setEnabled(!form_->modifiedValues().empty()); }
-  void updateColors();
 
   std::vector<MethodDescription> methods_;
   std::map<std::string, ParameterSet> kept_values_;

@@ -89,6 +89,7 @@ MetricTable::MetricTable(QWidget* parent)
   connect(copy_csv_, &QToolButton::clicked, this, &MetricTable::copyCsv);
   connect(copy_latex_, &QToolButton::clicked, this, &MetricTable::copyLatex);
   fill();
+  theme::follow_palette(this, this, [this] { stressBest(); });
 }
 
 void MetricTable::setUpTable() {
@@ -133,11 +134,6 @@ void MetricTable::setTable(const std::vector<MetricColumn>& columns,
   columns_ = columns;
   rows_ = rows;
   fill();
-}
-
-void MetricTable::changeEvent(QEvent* event) {
-  QWidget::changeEvent(event);
-  if (event->type() == QEvent::PaletteChange) stressBest();
 }
 
 void MetricTable::fill() {

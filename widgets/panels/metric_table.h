@@ -73,7 +73,6 @@ class MetricTable : public QWidget {
   void saveRequested(const QString& suffix, const QString& text);
 
  protected:
-  void changeEvent(QEvent* event) override;
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:

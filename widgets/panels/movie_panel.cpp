@@ -10,7 +10,6 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QSpinBox>
-#include <QStandardItemModel>
 
 namespace episcope {
 namespace {
@@ -71,7 +70,6 @@ void MoviePanel::addFocus(QFormLayout& form) {
     each->setSuffix(tr(" px"));
     each->setToolTip(tr("Disparity in focus at one end of the movement"));
   }
-  nearest_->setAccessibleName(tr("Focus to"));
   auto* row = make_row({{farthest_, 1}, new QLabel(tr("to"), this), {nearest_, 1}});
   form.addRow(tr("Focus from"), row);
 }
@@ -90,10 +88,9 @@ void MoviePanel::addSizes(QFormLayout& form) {
 }
 
 void MoviePanel::setAvailable(const std::set<MovieKind>& kinds) {
-  auto* model = qobject_cast<QStandardItemModel*>(kind_->model());
   for (int i = 0; i < kind_->count(); ++i) {
     const auto kind = static_cast<MovieKind>(kind_->itemData(i).toInt());
-    model->item(i)->setEnabled(kinds.contains(kind));
+    set_item_enabled(kind_, i, kinds.contains(kind));
     if (i == kind_->currentIndex() && !kinds.contains(kind)) kind_->setCurrentIndex(0);
   }
 }

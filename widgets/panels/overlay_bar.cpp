@@ -113,14 +113,12 @@ void OverlayBar::setAvailable(const std::vector<Quantity>& quantities) {
 void OverlayBar::setQuantity(Quantity quantity) {
   const int place = quantity_->findData(static_cast<int>(quantity));
   if (place < 0) return;
-  const QSignalBlocker blocker(quantity_);
-  quantity_->setCurrentIndex(place);
+  Quietly(quantity_)->setCurrentIndex(place);
   opacity_->setEnabled(quantity != Quantity::View);
 }
 
 void OverlayBar::setOpacity(double opacity) {
-  const QSignalBlocker blocker(opacity_);
-  opacity_->setValue(static_cast<int>(std::lround(100 * opacity)));
+  Quietly(opacity_)->setValue(static_cast<int>(std::lround(100 * opacity)));
 }
 
 void OverlayBar::setFocusRange(Interval range_px) {
@@ -133,13 +131,7 @@ void OverlayBar::setFocusRange(Interval range_px) {
 }
 
 void OverlayBar::addOpacityAction(QAction* action) {
-  row_->insertWidget(row_->indexOf(opacity_) + 1,
-                     make_action_button(action, "button." + action->objectName(), this));
-}
-
-void OverlayBar::addFocusAction(QAction* action) {
-  row_->insertWidget(row_->count() - 1,
-                     make_action_button(action, "button." + action->objectName(), this));
+  row_->insertWidget(row_->indexOf(opacity_) + 1, make_action_button(action, this));
 }
 
 void OverlayBar::showFocus(double focus_px) {
@@ -208,32 +200,19 @@ CompareBar::CompareBar(QWidget* parent)
     : QWidget(parent),
       a_(make_combo("compare.a", tr("A: the result shown"), this)),
       b_(make_combo("compare.b", tr("B: the result it is compared with"), this)),
-      maps_(new QHBoxLayout),
-      buttons_(new QHBoxLayout) {
+      maps_(make_row({new QLabel(tr("Map"), this), kRoom}, {.spacing = 2})),
+      buttons_(make_row({kRoom}, {.spacing = 2})) {
   setObjectName("compareBar");
-  maps_->setSpacing(2);
-  maps_->addWidget(new QLabel(tr("Map"), this));
-  maps_->addStretch(1);
-  buttons_->setSpacing(2);
   auto* row = make_row({make_badge(Side::A, this), {a_, 1}}, {.spacing = theme::kSpacing});
   row->addSpacing(theme::kSpacing);
   row->addWidget(make_badge(Side::B, this));
   row->addWidget(b_, 1);
   make_column(this, {row, maps_, buttons_},
               {.margins = {0, theme::kSpacing, 0, 0}, .spacing = theme::kSpacing});
-  buttons_->addStretch(1);
   connect(a_, &QComboBox::activated, this,
           [this] { emit aChosen(a_->currentData().toULongLong()); });
   connect(b_, &QComboBox::activated, this,
           [this] { emit bChosen(b_->currentData().toULongLong()); });
-}
-
-void CompareBar::addMap(QAction* action, const QString& object_name) {
-  maps_->insertWidget(maps_->count() - 1, make_action_button(action, object_name, this));
-}
-
-void CompareBar::addAction(QAction* action, const QString& object_name) {
-  buttons_->insertWidget(buttons_->count() - 1, make_action_button(action, object_name, this));
 }
 
 void CompareBar::setChoices(const std::vector<Choice>& choices, quint64 a, quint64 b,
@@ -260,10 +239,6 @@ RegionBar::RegionBar(QWidget* parent)
   layout_->addWidget(part_);
   layout_->addWidget(summary_, 1);
   connect(part_, &QComboBox::activated, this, &RegionBar::partChosen);
-}
-
-void RegionBar::addAction(QAction* action, const QString& object_name) {
-  layout_->addWidget(make_action_button(action, object_name, this));
 }
 
 void RegionBar::setParts(const QStringList& names) {

@@ -5,16 +5,18 @@
 #include "engine/render/quantity.h"
 #include "widgets/controls/labels.h"
 #include "widgets/controls/number_spin.h"
+#include "widgets/controls/tool_button.h"
 
 #include <QComboBox>
+#include <QHBoxLayout>
 #include <QSlider>
 #include <QString>
+#include <QToolButton>
 #include <QWidget>
 
 #include <vector>
 
 class QAction;
-class QHBoxLayout;
 
 namespace episcope {
 
@@ -39,7 +41,7 @@ class OverlayBar : public QWidget {
   /// Adds a button for an action on the look of the overlay, beside its opacity.
   void addOpacityAction(QAction* action);
   /// Adds a button for a focus plane action, beside its controls.
-  void addFocusAction(QAction* action);
+  void addFocusAction(QAction* action) { add_action_button(row_, action); }
 
   [[nodiscard]] render::Quantity quantity() const;
   [[nodiscard]] double opacity() const { return opacity_->value() / 100.0; }
@@ -86,9 +88,9 @@ class CompareBar : public QWidget {
   explicit CompareBar(QWidget* parent = nullptr);
 
   /// Adds a button for a map to compare by, above the others.
-  void addMap(QAction* action, const QString& object_name);
+  void addMap(QAction* action) { add_action_button(maps_, action); }
   /// Adds a button for an action, in order of the calls.
-  void addAction(QAction* action, const QString& object_name);
+  void addAction(QAction* action) { add_action_button(buttons_, action); }
   /// Available results, with A and B; 0 = none: `other` then names what replaces B, e.g. "truth".
   void setChoices(const std::vector<Choice>& choices, quint64 a, quint64 b, const QString& other);
 
@@ -110,7 +112,8 @@ class RegionBar : public QWidget {
  public:
   explicit RegionBar(QWidget* parent = nullptr);
 
-  void addAction(QAction* action, const QString& object_name);
+  /// Adds the button of an action at the end.
+  void addAction(QAction* action) { layout_->addWidget(make_action_button(action, this)); }
   /// Available regions, in order.
   void setParts(const QStringList& names);
   void setCurrent(int part) { part_->setCurrentIndex(part); }

@@ -144,30 +144,24 @@ QGridLayout* RawPicturePanel::makeSteps() {
 
 void RawPicturePanel::makeRawMenu(const QStringList& mosaics) {
   auto* menu = new QMenu(raw_button_);
-  connect(menu->addAction(tr("Open a raw picture…")), &QAction::triggered, this,
-          &RawPicturePanel::openRequested);
+  menu->addAction(tr("Open a raw picture…"), this, &RawPicturePanel::openRequested);
   mosaic_ = menu->addMenu(tr("Colors of the first pixels"));
   for (const QString& name : mosaics) {
     const QString text = name == "gray" ? tr("Gray") : tr("Bayer %1").arg(name.toUpper());
-    connect(mosaic_->addAction(text), &QAction::triggered, this,
-            [this, name] { emit mosaicChosen(name); });
+    mosaic_->addAction(text, this, [this, name] { emit mosaicChosen(name); });
   }
-  optics_ = menu->addAction(tr("Optics of the camera…"));
-  connect(optics_, &QAction::triggered, this, &RawPicturePanel::opticsRequested);
+  optics_ = menu->addAction(tr("Optics of the camera…"), this, &RawPicturePanel::opticsRequested);
   menu->addSeparator();
-  connect(menu->addAction(tr("A computed one to try")), &QAction::triggered, this,
-          &RawPicturePanel::demoRequested);
+  menu->addAction(tr("A computed one to try"), this, &RawPicturePanel::demoRequested);
   raw_button_->setMenu(menu);
 }
 
 void RawPicturePanel::makeWhiteMenu() {
   auto* menu = new QMenu(white_button_);
-  connect(menu->addAction(tr("White picture or archive of calibration data…")), &QAction::triggered,
-          this, &RawPicturePanel::whiteRequested);
-  connect(menu->addAction(tr("Folder of calibration data…")), &QAction::triggered, this,
-          &RawPicturePanel::calibrationRequested);
-  connect(menu->addAction(tr("Dark picture…")), &QAction::triggered, this,
-          &RawPicturePanel::darkRequested);
+  menu->addAction(tr("White picture or archive of calibration data…"), this,
+                  &RawPicturePanel::whiteRequested);
+  menu->addAction(tr("Folder of calibration data…"), this, &RawPicturePanel::calibrationRequested);
+  menu->addAction(tr("Dark picture…"), this, &RawPicturePanel::darkRequested);
   white_button_->setMenu(menu);
 }
 

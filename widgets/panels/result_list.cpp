@@ -96,11 +96,7 @@ void ResultList::setUpTree() {
   tree_->setTextElideMode(Qt::ElideRight);
   tree_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   tree_->setContextMenuPolicy(Qt::CustomContextMenu);
-  auto* remove = named("results.removeAction", new QAction(tr("Remove"), tree_));
-  remove->setShortcut(QKeySequence::Delete);
-  remove->setShortcutContext(Qt::WidgetShortcut);
-  tree_->addAction(remove);
-  connect(remove, &QAction::triggered, this, [this] {
+  connect(add_delete_action(tree_), &QAction::triggered, this, [this] {
     if (const auto id = selectedId()) emit removeRequested(*id);
   });
   tree_->setEditTriggers(QAbstractItemView::NoEditTriggers);  // only names can be edited

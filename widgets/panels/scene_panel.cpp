@@ -215,8 +215,7 @@ void ScenePanel::buildRows() {
 }
 
 void ScenePanel::setOpenAction(QAction* action) {
-  auto* button = make_action_button(action, "scenes.open", this);
-  static_cast<QHBoxLayout*>(head_->layout())->addWidget(button);
+  head_->layout()->addWidget(make_action_button(action, this));
 }
 
 void ScenePanel::setFolder(const QString& folder, bool is_searching) {
@@ -336,8 +335,7 @@ TimeBar::TimeBar(QWidget* parent)
 }
 
 void TimeBar::setPlayAction(QAction* action) {
-  auto* button = make_action_button(action, "time.play", this);
-  static_cast<QHBoxLayout*>(layout())->insertWidget(0, button);
+  static_cast<QHBoxLayout*>(layout())->insertWidget(0, make_action_button(action, this));
 }
 
 void TimeBar::setFrame(int frame, int count) {

@@ -7,11 +7,9 @@
 #include "widgets/controls/theme.h"
 #include "widgets/controls/tool_button.h"
 
-#include <QEvent>
 #include <QHBoxLayout>
 #include <QScrollArea>
 #include <QSignalBlocker>
-#include <QStandardItemModel>
 #include <QToolButton>
 
 #include <algorithm>
@@ -27,8 +25,8 @@ constexpr int kLeastSettingsHeight = 130;
 SegmentPanel::SegmentPanel(QWidget* parent)
     : QWidget(parent),
       chip_(named("segment.state", new QLabel(this))),
-      actions_(new QHBoxLayout),
-      overlays_(new QHBoxLayout),
+      actions_(make_row({kRoom}, {.spacing = 2})),
+      overlays_(make_row({kRoom}, {.spacing = 2})),
       note_(named("segment.note", new QLabel(this))),
       fold_(named("segment.settings", new QToolButton(this))),
       settings_(named("segment.form", new QScrollArea(this))),
@@ -46,16 +44,12 @@ SegmentPanel::SegmentPanel(QWidget* parent)
   fold_->setArrowType(Qt::RightArrow);
   fold_->setAutoRaise(true);
   fold_->setFocusPolicy(Qt::NoFocus);
-  actions_->setSpacing(2);
-  actions_->addStretch(1);
-  actions_->addWidget(chip_);
-  overlays_->setSpacing(2);
-  overlays_->addStretch(1);
+  auto* above = make_row({{actions_, 1}, chip_}, {.spacing = 2});
   auto* below = new QHBoxLayout;
   below->setSpacing(theme::kSpacing);
   below->addWidget(fold_, 0, Qt::AlignTop);
   below->addWidget(note_, 1);
-  make_column(this, {actions_, overlays_, below, makeSettings()}, {.spacing = 4});
+  make_column(this, {above, overlays_, below, makeSettings()}, {.spacing = 4});
   connect(fold_, &QToolButton::clicked, this,
           [this] { setSettingsVisible(settings_->isHidden()); });
   connect(form_, &ParameterForm::valuesChanged, this, &SegmentPanel::parametersEdited);
@@ -63,6 +57,7 @@ SegmentPanel::SegmentPanel(QWidget* parent)
   connect(all_views_, &QCheckBox::toggled, this, &SegmentPanel::keepsAllViewsEdited);
   setSettingsVisible(false);
   setNote({});
+  theme::follow_palette(this, this, [this] { showMood(); });
 }
 
 QWidget* SegmentPanel::makeSettings() {
@@ -78,9 +73,7 @@ QWidget* SegmentPanel::makeSettings() {
   auto* content = new QWidget(settings_);
   make_column(content, {row, makeSmoothing(), form_, all_views_, kRoom},
               {.margins = {0, 0, theme::kSpacing, 0}, .spacing = theme::kSpacing});
-  settings_->setFrameShape(QFrame::NoFrame);
-  settings_->setWidgetResizable(true);
-  settings_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  set_up_scrolling(settings_);
   settings_->setMinimumHeight(kLeastSettingsHeight);  // rather than a window beyond the screen
   settings_->setMaximumHeight(kSettingsHeight);
   settings_->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Preferred);
@@ -88,7 +81,7 @@ QWidget* SegmentPanel::makeSettings() {
   return settings_;
 }
 
-QWidget* SegmentPanel::makeSmoothing() {
+QLayout* SegmentPanel::makeSmoothing() {
   const QString tip =
       tr("Smooths the boundaries of all labels; 0 shows them as they were computed. Can be undone");
   smoothing_->setRange(0, AnnotationDocument::kMaxSmoothing_px);
@@ -98,31 +91,11 @@ QWidget* SegmentPanel::makeSmoothing() {
   smoothing_->setKeyboardTracking(false);
   smoothing_->setSuffix(tr(" px"));
   smoothing_->setToolTip(tip);
-  auto* row = new QWidget(this);
-  auto* layout = new QHBoxLayout(row);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(theme::kSpacing);
-  auto* label = new QLabel(tr("Smooth boundaries by"), row);
+  auto* label = new QLabel(tr("Smooth boundaries by"), this);
   label->setBuddy(smoothing_);
   label->setToolTip(tip);
-  layout->addWidget(label);
-  layout->addWidget(smoothing_);
-  layout->addStretch(1);
   connect(smoothing_, &NumberSpin::valueChanged, this, &SegmentPanel::smoothingEdited);
-  return row;
-}
-
-void SegmentPanel::setSmoothing(double smoothing_px) {
-  const QSignalBlocker blocker(smoothing_);
-  smoothing_->setValue(smoothing_px);
-}
-
-void SegmentPanel::addAction(QAction* action, const QString& object_name) {
-  actions_->insertWidget(actions_->count() - 2, make_action_button(action, object_name, this));
-}
-
-void SegmentPanel::addOverlay(QAction* action, const QString& object_name) {
-  overlays_->insertWidget(overlays_->count() - 1, make_action_button(action, object_name, this));
+  return make_row({label, smoothing_, kRoom}, {.spacing = theme::kSpacing});
 }
 
 void SegmentPanel::setState(const QString& text, ChipMood mood, const QString& detail) {
@@ -140,11 +113,6 @@ void SegmentPanel::showMood() {
   chip_->setPalette(theme::text_palette(color));
 }
 
-void SegmentPanel::changeEvent(QEvent* event) {
-  QWidget::changeEvent(event);
-  if (event->type() == QEvent::PaletteChange) showMood();
-}
-
 void SegmentPanel::setParameters(const std::vector<ParameterDescription>& parameters) {
   form_->setParameters(parameters);
 }
@@ -152,11 +120,10 @@ void SegmentPanel::setParameters(const std::vector<ParameterDescription>& parame
 void SegmentPanel::setSources(const std::vector<Source>& sources, int current) {
   const QSignalBlocker blocker(source_);
   source_->clear();
-  auto* model = qobject_cast<QStandardItemModel*>(source_->model());
   for (const Source& source : sources) {
     source_->addItem(source.name, source.id);
     source_->setItemData(source_->count() - 1, source.name, Qt::ToolTipRole);
-    model->item(source_->count() - 1)->setEnabled(source.is_available);
+    set_item_enabled(source_, source_->count() - 1, source.is_available);
   }
   source_->setCurrentIndex(std::max(0, source_->findData(current)));
 }
@@ -164,11 +131,6 @@ void SegmentPanel::setSources(const std::vector<Source>& sources, int current) {
 void SegmentPanel::setSettingsVisible(bool are_visible) {
   settings_->setVisible(are_visible);
   fold_->setArrowType(are_visible ? Qt::DownArrow : Qt::RightArrow);
-}
-
-void SegmentPanel::setKeepsAllViews(bool keeps) {
-  const QSignalBlocker blocker(all_views_);
-  all_views_->setChecked(keeps);
 }
 
 }  // namespace episcope

@@ -2,10 +2,14 @@
 #pragma once
 
 #include "engine/core/parameter.h"
+#include "widgets/controls/layout.h"
+#include "widgets/controls/number_spin.h"
 #include "widgets/controls/parameter_form.h"
+#include "widgets/controls/tool_button.h"
 
 #include <QCheckBox>
 #include <QComboBox>
+#include <QHBoxLayout>
 #include <QLabel>
 #include <QString>
 #include <QWidget>
@@ -13,13 +17,10 @@
 #include <vector>
 
 class QAction;
-class QHBoxLayout;
 class QScrollArea;
 class QToolButton;
 
 namespace episcope {
-
-class NumberSpin;
 
 /// Meaning of the state chip's color.
 enum class ChipMood { Quiet, Busy, Stale, Hint, Failed };
@@ -40,8 +41,8 @@ class SegmentPanel : public QWidget {
   explicit SegmentPanel(QWidget* parent = nullptr);
 
   /// Adds buttons for actions in order of the calls: computing above, display below.
-  void addAction(QAction* action, const QString& object_name);
-  void addOverlay(QAction* action, const QString& object_name);
+  void addAction(QAction* action) { add_action_button(actions_, action); }
+  void addOverlay(QAction* action) { add_action_button(overlays_, action); }
   /// "refining …", "idle · 2.1 s"; `detail` is its tool tip.
   void setState(const QString& text, ChipMood mood, const QString& detail);
   /// Sentence on what is missing or was found; empty = none.
@@ -49,14 +50,14 @@ class SegmentPanel : public QWidget {
   void setParameters(const std::vector<ParameterDescription>& parameters);
   void setSources(const std::vector<Source>& sources, int current);
   void setSettingsVisible(bool are_visible);
-  void setSmoothing(double smoothing_px);
+  void setSmoothing(double smoothing_px) { Quietly(smoothing_)->setValue(smoothing_px); }
 
   [[nodiscard]] ParameterSet parameters() const { return form_->values(); }
   /// Id of the chosen disparity.
   [[nodiscard]] int source() const { return source_->currentData().toInt(); }
   /// Whether strokes change the labels of all views.
   [[nodiscard]] bool keepsAllViews() const { return all_views_->isChecked(); }
-  void setKeepsAllViews(bool keeps);
+  void setKeepsAllViews(bool keeps) { Quietly(all_views_)->setChecked(keeps); }
   [[nodiscard]] QString state() const { return chip_->text(); }
   [[nodiscard]] QString note() const { return note_->text(); }
 
@@ -66,12 +67,9 @@ class SegmentPanel : public QWidget {
   void keepsAllViewsEdited();
   void smoothingEdited(double smoothing_px);
 
- protected:
-  void changeEvent(QEvent* event) override;
-
  private:
   QWidget* makeSettings();
-  QWidget* makeSmoothing();
+  QLayout* makeSmoothing();
   void showMood();
 
   QLabel* chip_;

@@ -8,14 +8,12 @@
 #include "widgets/controls/text.h"
 #include "widgets/controls/theme.h"
 
-#include <QEvent>
 #include <QGridLayout>
 #include <QLabel>
 #include <QLocale>
 #include <QMouseEvent>
 #include <QPainter>
 #include <QPolygonF>
-#include <QSignalBlocker>
 
 #include <algorithm>
 #include <cmath>
@@ -54,6 +52,7 @@ StatisticsPanel::StatisticsPanel(QWidget* parent)
   for (int i = 0; i < static_cast<int>(names_.size()); ++i) {
     const auto place = static_cast<std::size_t>(i);
     names_[place] = new QLabel(tr(kNames[place]), this);
+    theme::mute(names_[place]);
     values_[place] = new QLabel(this);
     values_[place]->setObjectName(QString("statistics.%1").arg(kNames[place]));
     layout->addWidget(names_[place], 2, i);
@@ -86,11 +85,6 @@ void StatisticsPanel::addThreshold(QGridLayout& layout) {
   connect(threshold_, &NumberSpin::valueChanged, this, &StatisticsPanel::badThresholdEdited);
 }
 
-void StatisticsPanel::setBadThreshold(double threshold_px) {
-  const QSignalBlocker blocker(threshold_);
-  threshold_->setValue(threshold_px);
-}
-
 void StatisticsPanel::setSummary(const Summary& summary) {
   const auto& statistics = summary.statistics;
   const QString title =
@@ -104,23 +98,12 @@ void StatisticsPanel::setSummary(const Summary& summary) {
   values_[kBad]->setText(summary.bad_percent ? tr("%1 %").arg(*summary.bad_percent, 0, 'f', 2)
                                              : QString("–"));
   values_[kInvalid]->setText(QLocale::c().toString(static_cast<qulonglong>(statistics.invalid)));
-  updateColors();
 }
 
 void StatisticsPanel::clear(const QString& why) {
   title_->setFullText(why);
   histogram_->setHistogram({}, {});
   for (QLabel* value : values_) value->setText("–");
-  updateColors();
-}
-
-void StatisticsPanel::changeEvent(QEvent* event) {
-  QWidget::changeEvent(event);
-  if (event->type() == QEvent::PaletteChange) updateColors();
-}
-
-void StatisticsPanel::updateColors() {
-  for (QLabel* name : names_) name->setPalette(theme::text_palette(theme::muted_text(palette())));
 }
 
 QString StatisticsPanel::text() const {

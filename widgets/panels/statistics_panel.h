@@ -3,6 +3,8 @@
 
 #include "engine/render/quantity.h"
 #include "engine/render/shade.h"
+#include "widgets/controls/layout.h"
+#include "widgets/controls/number_spin.h"
 
 #include <QString>
 #include <QWidget>
@@ -18,7 +20,6 @@ namespace episcope {
 class ElidedLabel;
 class HistogramView;
 class LinePlot;
-class NumberSpin;
 struct Plot;
 
 /// Histogram and a few numbers of the visible part of a map. Setters never emit.
@@ -37,7 +38,7 @@ class StatisticsPanel : public QWidget {
   explicit StatisticsPanel(QWidget* parent = nullptr);
 
   void setSummary(const Summary& summary);
-  void setBadThreshold(double threshold_px);
+  void setBadThreshold(double threshold_px) { Quietly(threshold_)->setValue(threshold_px); }
   /// Shows why there is no map.
   void clear(const QString& why);
   /// "min −0.120, median …", "–" for unknown numbers.
@@ -47,12 +48,8 @@ class StatisticsPanel : public QWidget {
   void rangeEdited(episcope::Interval range);
   void badThresholdEdited(double threshold_px);
 
- protected:
-  void changeEvent(QEvent* event) override;
-
  private:
   void addThreshold(QGridLayout& layout);
-  void updateColors();
 
   ElidedLabel* title_;
   HistogramView* histogram_;

@@ -7,11 +7,9 @@
 #include "widgets/controls/theme.h"
 #include "widgets/controls/tool_button.h"
 
-#include <QEvent>
 #include <QGridLayout>
 #include <QPixmap>
 #include <QPushButton>
-#include <QSignalBlocker>
 #include <QSlider>
 
 #include <cmath>
@@ -71,6 +69,7 @@ ValueBar::ValueBar(QWidget* parent)
   make_row(this, {swatch_, {values_, 1}, status_},
            {.margins = {theme::kMargin, 2, theme::kMargin, 2}, .spacing = theme::kSpacing});
   setReading(std::nullopt);
+  theme::follow_palette(this, this, [this] { updateColors(); });
 }
 
 void ValueBar::setReading(const std::optional<PixelReading>& reading) {
@@ -81,11 +80,6 @@ void ValueBar::setReading(const std::optional<PixelReading>& reading) {
   swatch_->setPixmap(swatch);
   has_reading_ = reading.has_value();
   updateColors();
-}
-
-void ValueBar::changeEvent(QEvent* event) {
-  QWidget::changeEvent(event);
-  if (event->type() == QEvent::PaletteChange) updateColors();
 }
 
 void ValueBar::updateColors() {
@@ -140,13 +134,11 @@ TonePanel::Row TonePanel::addRow(int place, const Quality& quality) {
   layout->addWidget(row.slider, place, 1);
   layout->addWidget(row.field, place, 2);
   connect(row.slider, &QSlider::valueChanged, this, [this, row](int value) {
-    const QSignalBlocker blocker(row.field);
-    row.field->setValue(value * kSliderStep);
+    Quietly(row.field)->setValue(value * kSliderStep);
     emit toneEdited(tone());
   });
   connect(row.field, &NumberSpin::valueChanged, this, [this, row](double value) {
-    const QSignalBlocker blocker(row.slider);
-    row.slider->setValue(tone_step(value));
+    Quietly(row.slider)->setValue(tone_step(value));
     emit toneEdited(tone());
   });
   return row;
@@ -176,15 +168,13 @@ void TonePanel::addReach() {
                  this));
   reach->setTextFormat(Qt::PlainText);
   reach->setWordWrap(true);
-  reach->setPalette(theme::text_palette(theme::muted_text(palette())));
+  theme::mute(reach);
   qobject_cast<QGridLayout*>(layout())->addWidget(reach, kButtonRow + 1, 0, 1, 3);
 }
 
 void TonePanel::showRow(const Row& row, double value) {
-  const QSignalBlocker slider_blocker(row.slider);
-  const QSignalBlocker field_blocker(row.field);
-  row.slider->setValue(tone_step(value));
-  row.field->setValue(value);
+  Quietly(row.slider)->setValue(tone_step(value));
+  Quietly(row.field)->setValue(value);
 }
 
 void TonePanel::setTone(const render::Tone& shown) {

@@ -54,9 +54,6 @@ class ValueBar : public QWidget {
   /// (−0.006)".
   [[nodiscard]] QString text() const { return values_->fullText(); }
 
- protected:
-  void changeEvent(QEvent* event) override;
-
  private:
   void updateColors();
 

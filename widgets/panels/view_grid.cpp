@@ -12,7 +12,6 @@
 #include <QLabel>
 #include <QMouseEvent>
 #include <QPainter>
-#include <QSignalBlocker>
 #include <QToolTip>
 
 #include <algorithm>
@@ -113,8 +112,7 @@ void ViewGrid::followTip(const QAction* play) {
 
 void ViewGrid::setPlaying(bool playing) {
   playing = playing && loop_.size() > 1;
-  const QSignalBlocker blocker(play_);
-  play_->setChecked(playing);
+  Quietly(play_)->setChecked(playing);
   if (playing == timer_.isActive()) return;
   play_->setIcon(themed_icon(playing ? "pause" : "play"));
   if (playing) {

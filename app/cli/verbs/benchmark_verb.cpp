@@ -14,6 +14,7 @@
 #include "engine/disparity/estimator.h"
 #include "engine/disparity/registry.h"
 #include "engine/io/base/atomic_file.h"
+#include "engine/io/base/files.h"
 #include "engine/io/base/json.h"
 #include "engine/io/models/scribble_file.h"
 #include "engine/labeling/labeler.h"
@@ -300,8 +301,7 @@ std::string reading_text(const BenchmarkRequest& request) {
 
 /// Refuses to replace a file that is no plan.
 void check_plan_file(const fs::path& file) {
-  std::error_code ignored;
-  if (!fs::exists(file, ignored)) return;
+  if (!io::is_there(file)) return;
   try {
     (void)read_plan_file(file);
   } catch (const IoError&) {
@@ -359,8 +359,7 @@ void take_scribbles(const BenchmarkRequest& request, Scene& scene, const Progres
   if (!request.scribbles) return;
   const fs::path name = fs::path(scene.light_field->info().name + ".h5").filename();
   const fs::path file = fs::path(*request.scribbles) / name;
-  std::error_code ignored;
-  if (fs::exists(file, ignored)) scene.scribbles = io::read_scribbles(file, scene, progress);
+  if (io::is_there(file)) scene.scribbles = io::read_scribbles(file, scene, progress);
 }
 
 /// What opens the light fields that the INPUTs of a benchmark stand for.
@@ -375,8 +374,7 @@ std::vector<std::string> benchmark_inputs(const BenchmarkRequest& request, Job& 
 
 /// Opens them by the reading options; warnings become notes. Borrows both.
 SceneLoader scene_loader(const BenchmarkRequest& request, Job& job) {
-  std::error_code ignored;
-  if (request.scribbles && !fs::is_directory(*request.scribbles, ignored)) {
+  if (request.scribbles && !io::is_folder(*request.scribbles)) {
     throw IoError(*request.scribbles, "is not a folder; name one that holds NAME.h5 for scenes");
   }
   return [&request, &job](const std::string& input, const Progress& progress) {

@@ -146,8 +146,7 @@ Target target_of(const ConvertRequest& request) {
   if (!request.form.empty()) return named_target(request);
   const std::string& output = request.output;
   const std::string suffix = suffix_of(output);
-  std::error_code ignored;
-  if (suffix.empty() || output.ends_with('/') || std::filesystem::is_directory(output, ignored)) {
+  if (suffix.empty() || output.ends_with('/') || io::is_folder(output)) {
     return {io::writer_named("benchmark")};
   }
   const auto map = map_form_of(output);
@@ -498,9 +497,8 @@ void convert_collection(ConvertRequest request, Job& job) {
 }
 
 std::filesystem::path repacked_file(const std::string& input) {
-  std::error_code error;
   const std::filesystem::path path(input);
-  return std::filesystem::is_directory(path, error) ? path / "lf.h5" : path;
+  return io::is_folder(path) ? path / "lf.h5" : path;
 }
 
 [[nodiscard]] Json repack(const ConvertRequest& request, Job& job) {

@@ -10,6 +10,7 @@
 #include "engine/core/error.h"
 #include "engine/core/text.h"
 #include "engine/core/text_table.h"
+#include "engine/io/base/files.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/models/external_result.h"
 #include "engine/io/models/reader.h"
@@ -39,8 +40,7 @@ struct JudgedFile {
 };
 
 bool is_submission(const fs::path& path) {
-  std::error_code ignored;
-  return fs::is_directory(io::submitted_map_file(path, "").parent_path(), ignored);
+  return io::is_folder(io::submitted_map_file(path, "").parent_path());
 }
 
 /// A damaged file counts: judging it says what is wrong.
@@ -69,9 +69,8 @@ std::vector<std::string> results_below(const fs::path& folder) {
 
 std::vector<std::string> expanded(const std::vector<std::string>& results) {
   std::vector<std::string> files;
-  std::error_code ignored;
   for (const std::string& one : results) {
-    if (fs::is_directory(one, ignored) && !is_submission(one)) {
+    if (io::is_folder(one) && !is_submission(one)) {
       std::ranges::move(results_below(one), std::back_inserter(files));
     } else {
       files.push_back(one);
@@ -91,8 +90,7 @@ std::string known_source_of(const std::string& result) {
 }
 
 JudgedFile by_own_source(const std::string& result) {
-  std::error_code ignored;
-  if (!fs::exists(result, ignored)) {
+  if (!io::is_there(result)) {
     throw IoError(result, "there is no such file or folder; check the path");
   }
   const std::string source = stated_source(result);

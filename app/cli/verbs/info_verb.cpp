@@ -18,6 +18,7 @@
 #include "engine/core/parameter.h"
 #include "engine/core/scene.h"
 #include "engine/core/text.h"
+#include "engine/io/base/files.h"
 #include "engine/io/base/hdf5_file.h"
 #include "engine/io/base/json.h"
 #include "engine/io/models/labels/label_import.h"
@@ -78,13 +79,16 @@ std::string range_text(const Interval& range) {
   return fmt::format("{:.4g} … {:.4g} px", range.min, range.max);
 }
 
-/// When a file was written last, in seconds since 1970.
-std::int64_t written_at(const std::string& file) {
+/// Adds when a file was written last.
+void add_date(const std::string& file, FileInfo& info) {
   std::error_code error;
-  const auto time = std::filesystem::last_write_time(file, error);
-  if (error) return 0;
+  const auto time = fs::last_write_time(file, error);
+  if (error) return;  // it was removed meanwhile
   const auto since_1970 = std::chrono::file_clock::to_sys(time).time_since_epoch();
-  return std::chrono::duration_cast<std::chrono::seconds>(since_1970).count();
+  const std::string text =
+      time_text(std::chrono::duration_cast<std::chrono::seconds>(since_1970).count());
+  info.json["date"] = text;
+  info.lines.emplace_back("date", text);
 }
 
 /// What a file says of the run that made it.
@@ -110,7 +114,6 @@ void add_made_by(const MadeBy& made, const std::string& file, FileInfo& info) {
     json["reader"] = made.reading.reader;
     json["reading"] = io::parameters_json(made.reading.options);
   }
-  json["date"] = time_text(written_at(file));
   info.lines.emplace_back("parameters", joined(made.parameters, ", ", [](const auto& each) {
                             return each.first + " " + to_text(each.second);
                           }));
@@ -119,7 +122,7 @@ void add_made_by(const MadeBy& made, const std::string& file, FileInfo& info) {
   info.lines.emplace_back("source",
                           made.source + reading_options_text(made.reading.options) + gone);
   info.lines.emplace_back("version", made.version.empty() ? "" : "Episcope " + made.version);
-  info.lines.emplace_back("date", time_text(written_at(file)));
+  add_date(file, info);
 }
 
 /// What a result says of its run beyond that: program, machine and light field.
@@ -271,8 +274,7 @@ FileInfo describe_label_archive(const std::string& file) {
         name == std::string(kScribbles) ? "scribbles" : "labels",
         fmt::format("{}: {}, ids {}", name, joined(map.shape, "×", text), joined(ids, ", ", text)));
   }
-  info.json["date"] = time_text(written_at(file));
-  info.lines.emplace_back("date", time_text(written_at(file)));
+  add_date(file, info);
   return info;
 }
 
@@ -286,8 +288,7 @@ void add_project_scene(const ProjectScene& scene, bool is_shown, FileInfo& info)
                   gone(has_source), has_strokes ? ", with strokes" : ""));
   Json results = Json::array();
   for (const ProjectResult& result : scene.results) {
-    std::error_code ignored;
-    const bool exists = fs::exists(result.file, ignored);
+    const bool exists = io::is_there(result.file);
     results.push_back(
         Json::object({{"name", result.name}, {"file", result.file.string()}, {"exists", exists}}));
     info.lines.emplace_back("  result",
@@ -310,8 +311,7 @@ FileInfo describe_project(const std::string& file) {
   for (std::size_t i = 0; i < project.scenes.size(); ++i) {
     add_project_scene(project.scenes[i], i == project.current, info);
   }
-  info.json["date"] = time_text(written_at(file));
-  info.lines.emplace_back("date", time_text(written_at(file)));
+  add_date(file, info);
   return info;
 }
 
@@ -325,15 +325,14 @@ FileInfo describe_camera(const std::string& file) {
   json["center_px"] = std::vector<double>{camera.center_x, camera.center_y};
   json["distortion"] = std::vector<double>(camera.distortion.begin(), camera.distortion.end());
   json["rms"] = camera.rms;
-  json["date"] = time_text(written_at(file));
   info.lines = {{"camera", fmt::format("photographs of {}×{} px", camera.width, camera.height)},
                 {"focal", fmt::format("length {:.2f} × {:.2f} px", camera.focal_x, camera.focal_y)},
                 {"center", fmt::format("({:.2f}, {:.2f}) px", camera.center_x, camera.center_y)},
                 {"distortion", joined(camera.distortion, ", ",
                                       [](double value) { return fmt::format("{:.4g}", value); }) +
                                    " (k1, k2, p1, p2, k3)"},
-                {"error", fmt::format("{:.3f} px", camera.rms)},
-                {"date", time_text(written_at(file))}};
+                {"error", fmt::format("{:.3f} px", camera.rms)}};
+  add_date(file, info);
   return info;
 }
 
@@ -342,8 +341,7 @@ FileInfo describe_pose(const std::string& file) {
   const capture::SolvedPose& solved = story.solved;
   const auto outliers =
       std::ranges::count_if(solved.pairs, [](const auto& pair) { return pair.is_outlier; });
-  std::error_code ignored;
-  const bool has_mesh = fs::exists(story.mesh, ignored);
+  const bool has_mesh = io::is_there(story.mesh);
   FileInfo info{{}, {{"input", file}, {"kind", "pose"}}};
   Json& json = info.json;
   json["mesh"] = story.mesh.string();
@@ -358,7 +356,6 @@ FileInfo describe_pose(const std::string& file) {
     json["pairs"] = story.pairs.size();
     json["outliers"] = outliers;
   }
-  json["date"] = time_text(written_at(file));
   const auto text = [](double value) { return fmt::format("{:.4g}", value); };
   info.lines = {{"pose", "of " + story.mesh.string() + (has_mesh ? "" : ", which is not there")},
                 {"source", story.light_field},
@@ -369,7 +366,7 @@ FileInfo describe_pose(const std::string& file) {
     info.lines.emplace_back("error", fmt::format("{:.3f} px, depth {:.3g} (unit of the mesh)",
                                                  solved.reprojection_error_px, solved.delta_tz));
   }
-  info.lines.emplace_back("date", time_text(written_at(file)));
+  add_date(file, info);
   return info;
 }
 
@@ -384,8 +381,7 @@ bool is_pose(const fs::path& path) {
 /// Describes a result, labels, also those of the archive, a project of the window, a camera or a
 /// pose. Nothing for what else there is, such as light fields. Throws IoError for a damaged file.
 std::optional<FileInfo> describe_file(const std::string& input, Reads reads) {
-  std::error_code ignored;
-  if (!builtin_scene_id(input).empty() || !fs::is_regular_file(input, ignored)) return {};
+  if (!builtin_scene_id(input).empty() || !io::is_file(input)) return {};
   if (io::is_segmentation_file(input)) return describe_labels(input);
   if (reads == Reads::AsItIs && is_label_archive(input)) return describe_label_archive(input);
   if (names_project(input)) return describe_project(input);

@@ -14,6 +14,7 @@
 #include "engine/core/error.h"
 #include "engine/core/scene.h"
 #include "engine/core/text.h"
+#include "engine/io/base/files.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/formats/movie.h"
 #include "engine/io/models/map_reading.h"
@@ -609,8 +610,7 @@ Drawn write_movie_of(const ShowRequest& request, const LoadedMap& loaded, Job& j
 
 /// Pictures of a movie go into a folder, which may be there, empty.
 void check_output(const ShowRequest& request) {
-  std::error_code ignored;
-  const bool is_folder = std::filesystem::is_directory(request.output, ignored);
+  const bool is_folder = io::is_folder(request.output);
   if (!request.movie.kind || !is_folder) check_output_file(request.output);
 }
 

@@ -528,7 +528,7 @@ void AnnotateController::addToolCommands() {
                              .enabled = [this] { return hasDocument(); },
                              .checked = [this, tool = row.tool] { return tool_ == tool; },
                              .choice = "annotate.tool"});
-    panel_->addAction(action, "button.annotate." + row.id);
+    panel_->addAction(action);
   }
 }
 
@@ -544,7 +544,7 @@ void AnnotateController::addPolygonCommands() {
         .keys = {Qt::Key_Return, Qt::Key_Enter},
         .run =
             [this] {
-              if (polygon_tool_->closeUp()) return;
+              if (polygon_tool_->close()) return;
               bench_.labels.hasRegion() ? bench_.labels.acceptRegion() : fillShown();
             },
         .scope = KeyScope::Viewer,
@@ -556,7 +556,7 @@ void AnnotateController::addPolygonCommands() {
         .text = tr("Remove the last corner"),
         .tip = tr("Removes the last corner of the polygon"),
         .keys = {Qt::Key_Backspace},
-        .run = [this] { polygon_tool_->takeBack(); },
+        .run = [this] { polygon_tool_->removeCorner(); },
         .scope = KeyScope::Viewer,
         .enabled = is_drawing}});
 }
@@ -584,7 +584,7 @@ void AnnotateController::addSizeCommands() {
 }
 
 const History<Edit>& AnnotateController::history() const {
-  return std::as_const(document_).document()->history();
+  return document_.document()->history();
 }
 
 void AnnotateController::addCommands() {
@@ -595,7 +595,7 @@ void AnnotateController::addCommands() {
   addSizeCommands();
   panel_->addGap();
   for (const char* id : {"annotate.undo", "annotate.redo"}) {
-    panel_->addAction(bench_.commands.find(id), QString("button.%1").arg(id));
+    panel_->addAction(bench_.commands.find(id));
   }
 }
 

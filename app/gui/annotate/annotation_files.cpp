@@ -82,7 +82,7 @@ void AnnotationFiles::addCommands() {
              tr("Writes a PNG image of each painted view"), "picture", {},
              &AnnotationFiles::exportDialog);
   for (const char* id : {"file.save_scribbles", "file.export_scribbles"}) {
-    bar_->addAction(bench_.commands.find(id), QString("button.%1").arg(id));
+    bar_->addAction(bench_.commands.find(id));
   }
 }
 

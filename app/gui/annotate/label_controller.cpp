@@ -120,8 +120,7 @@ void LabelController::addEditCommands() {
       "merge_label", tr("Merge into…"),
       tr("Gives everything painted with the current label to another one, "
          "and removes it"),
-      {}, {}, [this] { merge(); },
-      [this] { return hasDocument() && document_.document()->labels().labels().size() > 1; });
+      {}, {}, [this] { merge(); }, [this] { return document_.labels().labels().size() > 1; });
   add_one(
       "renumber_label", tr("Change number…"),
       tr("Gives the current label another number, in everything painted with it"), {}, {},
@@ -139,15 +138,13 @@ bool LabelController::hasDocument() const {
 }
 
 const LabelInfo* LabelController::find(int id) const {
-  const AnnotationDocument* document = std::as_const(document_).document();
-  return document ? document->labels().find(id) : nullptr;
+  return document_.labels().find(id);
 }
 
 void LabelController::show() {
-  const AnnotationDocument* document = std::as_const(document_).document();
-  palette_->setLabels(document ? document->labels().labels() : std::vector<LabelInfo>());
+  palette_->setLabels(document_.labels().labels());
   palette_->setCurrent(labels_.current());
-  palette_->setEnabled(document != nullptr);
+  palette_->setEnabled(hasDocument());
   showHint();
   bench_.commands.refresh();
 }
@@ -162,9 +159,7 @@ void LabelController::showHint() {
 
 // By its place in the list, from 1.
 const LabelInfo* LabelController::at(int place) const {
-  const AnnotationDocument* document = std::as_const(document_).document();
-  if (!document) return nullptr;
-  const auto& labels = document->labels().labels();
+  const auto& labels = document_.labels().labels();
   return place <= static_cast<int>(labels.size()) ? &labels[static_cast<std::size_t>(place) - 1]
                                                   : nullptr;
 }
@@ -190,7 +185,7 @@ void LabelController::add() {
 
 void LabelController::setName(int id, const QString& typed) {
   const std::string name = typed.trimmed().toStdString();
-  const auto& labels = document_.document()->labels().labels();
+  const auto& labels = document_.labels().labels();
   const bool is_taken = std::ranges::any_of(
       labels, [&](const LabelInfo& label) { return label.id != id && label.name == name; });
   if (is_taken) {
@@ -208,7 +203,7 @@ void LabelController::merge() {
   if (!label || refuseLocked(*label, tr("“%1” is locked: unlock it to merge it."))) return;
   QStringList names;
   std::vector<int> ids;
-  for (const LabelInfo& each : document_.document()->labels().labels()) {
+  for (const LabelInfo& each : document_.labels().labels()) {
     if (each.id == label->id) continue;
     names << QString("%1 · %2").arg(each.id).arg(QString::fromStdString(each.name));
     ids.push_back(each.id);
@@ -235,7 +230,7 @@ void LabelController::merge() {
 void LabelController::move(int id, int by) {
   const LabelInfo* label = find(id);
   if (!label) return;
-  const auto& labels = std::as_const(document_).document()->labels().labels();
+  const auto& labels = document_.labels().labels();
   const int place = static_cast<int>(label - labels.data()) + by;
   document_.edit([id, place](AnnotationDocument& document) { document.move_label(id, place); });
 }
@@ -289,8 +284,7 @@ bool LabelController::isPainted(int id) const {
   const ScribbleLayer& layer = document_.document()->scribbles();
   return std::ranges::any_of(layer.painted_views(), [&](ViewIndex view) {
     const auto image = layer.view(view);
-    const std::size_t size = static_cast<std::size_t>(image.height) * image.width;
-    return std::find(image.data, image.data + size, id) != image.data + size;
+    return std::count(image.data, image.data + image.size(), id) > 0;
   });
 }
 
@@ -388,9 +382,11 @@ LabelLookController::LabelLookController(const Workbench& bench, LabelPalette* p
     bench_.session.set_label_drawing(static_cast<LabelDrawing>(kept));
   }
   addCommands();
-  connect(palette_, &LabelPalette::hiddenRequested, this, &LabelLookController::setHidden);
+  connect(palette_, &LabelPalette::hiddenRequested, this,
+          [this](int id, bool hides) { mark(&LabelMarks::hidden, id, hides); });
   connect(palette_, &LabelPalette::onlyRequested, this, &LabelLookController::showOnly);
-  connect(palette_, &LabelPalette::lockedRequested, this, &LabelLookController::setLocked);
+  connect(palette_, &LabelPalette::lockedRequested, this,
+          [this](int id, bool locks) { mark(&LabelMarks::locked, id, locks); });
   connect(&bench_.document, &DocumentController::replaced, this, &LabelLookController::count);
   connect(&bench_.document, &DocumentController::changed, this,
           [this](const DocumentChange& change) {
@@ -414,8 +410,10 @@ void LabelLookController::addCommands() {
         .tip = tr("Neither shows the current label nor paints over it"),
         .icon = "eye_off",
         .keys = {Qt::Key_V},
-        .run = [this, current,
-                marks] { setHidden(current(), !marks().hidden.contains(current())); },
+        .run =
+            [=, this] {
+              mark(&LabelMarks::hidden, current(), !marks().hidden.contains(current()));
+            },
         .enabled = has_label,
         .checked = [=] { return marks().hidden.contains(current()); }},
        {.id = "annotate.only_label",
@@ -428,8 +426,10 @@ void LabelLookController::addCommands() {
         .tip = tr("The current label is neither painted nor painted over"),
         .icon = "lock",
         .keys = {tr("Shift+V")},
-        .run = [this, current,
-                marks] { setLocked(current(), !marks().locked.contains(current())); },
+        .run =
+            [=, this] {
+              mark(&LabelMarks::locked, current(), !marks().locked.contains(current()));
+            },
         .enabled = has_label,
         .checked = [=] { return marks().locked.contains(current()); }},
        {.id = "annotate.drawing",
@@ -450,37 +450,27 @@ void LabelLookController::update(Parts parts) {
   if (parts.has_any(Part::View | Part::Shown | Part::Estimates)) count();
 }
 
-void LabelLookController::setHidden(int id, bool hides) {
+void LabelLookController::mark(std::set<std::int32_t> LabelMarks::*set, int id, bool is_marked) {
   LabelMarks marks = bench_.session.place().label_marks;
-  hides ? void(marks.hidden.insert(id)) : void(marks.hidden.erase(id));
+  is_marked ? void((marks.*set).insert(id)) : void((marks.*set).erase(id));
   bench_.session.set_label_marks(marks);
 }
 
 void LabelLookController::showOnly(int id) {
-  const AnnotationDocument* document = std::as_const(bench_.document).document();
-  if (!document) return;
   LabelMarks marks = bench_.session.place().label_marks;
   std::set<std::int32_t> others;
-  for (const LabelInfo& label : document->labels().labels()) {
+  for (const LabelInfo& label : bench_.document.labels().labels()) {
     if (label.id != id) others.insert(label.id);
   }
   marks.hidden = marks.hidden == others ? std::set<std::int32_t>{} : others;
   bench_.session.set_label_marks(marks);
 }
 
-void LabelLookController::setLocked(int id, bool locks) {
-  LabelMarks marks = bench_.session.place().label_marks;
-  locks ? void(marks.locked.insert(id)) : void(marks.locked.erase(id));
-  bench_.session.set_label_marks(marks);
-}
-
 // Locks keep the brush away; undo goes back whatever was locked since, as in painting programs.
 void LabelLookController::tellLocked(const Edit& edit, bool is_undo) {
-  const AnnotationDocument* document = std::as_const(bench_.document).document();
-  if (!document) return;
   const std::set<std::int32_t> touched = painted_labels(edit);
   QStringList names;
-  for (const LabelInfo& label : document->labels().labels()) {
+  for (const LabelInfo& label : bench_.document.labels().labels()) {
     const bool is_locked = bench_.session.place().label_marks.locked.contains(label.id);
     if (is_locked && touched.contains(label.id)) names << QString::fromStdString(label.name);
   }
@@ -497,17 +487,15 @@ void LabelLookController::setDrawing(LabelDrawing drawing) {
 }
 
 void LabelLookController::followLabels() {
-  const AnnotationDocument* document = std::as_const(bench_.document).document();
-  if (!document) return;
   LabelMarks marks = bench_.session.place().label_marks;
-  const auto is_gone = [document](std::int32_t id) { return !document->labels().contains(id); };
+  const auto is_gone = [this](std::int32_t id) { return !bench_.document.labels().contains(id); };
   std::erase_if(marks.hidden, is_gone);
   std::erase_if(marks.locked, is_gone);
   bench_.session.set_label_marks(marks);
 }
 
 void LabelLookController::count() {
-  const AnnotationDocument* document = std::as_const(bench_.document).document();
+  const AnnotationDocument* document = bench_.document.document();
   const ViewIndex view = bench_.session.view();
   const auto layer = document ? document->scribbles().view(view) : ImageView<const std::uint8_t>{};
   if (layer.empty()) {

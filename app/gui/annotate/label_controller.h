@@ -70,9 +70,8 @@ class LabelLookController : public QObject {
  private:
   void addCommands();
   void update(Parts parts);
-  void setHidden(int id, bool hides);
+  void mark(std::set<std::int32_t> LabelMarks::*set, int id, bool is_marked);
   void showOnly(int id);
-  void setLocked(int id, bool locks);
   void setDrawing(render::LabelDrawing drawing);
   /// Tells the user if undo or redo changed locked labels.
   void tellLocked(const Edit& edit, bool is_undo);

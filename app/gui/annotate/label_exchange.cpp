@@ -31,7 +31,6 @@
 #include <QPixmap>
 #include <QPushButton>
 #include <QRadioButton>
-#include <QStandardItemModel>
 #include <QUrl>
 #include <QVBoxLayout>
 
@@ -160,13 +159,7 @@ ImportLabelsDialog::ImportLabelsDialog(QWidget* parent, bool has_labels)
   layout_->addWidget(warning);
   connect(uses_, &QButtonGroup::idToggled, this,
           [=, this] { warning->setVisible(has_labels && chosenUse() == LabelUse::Segmentation); });
-  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
-  auto* import = buttons->addButton(tr("Import"), QDialogButtonBox::AcceptRole);
-  import->setObjectName("importLabels.import");
-  import->setDefault(true);
-  layout_->addWidget(buttons);
-  connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
-  connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+  layout_->addWidget(make_answers(this, "importLabels.import", tr("Import")));
   connect(ignored_, &QLineEdit::editingFinished, this, [this] {
     if (!ignored_->isModified()) return;
     ignored_->setModified(false);
@@ -220,7 +213,7 @@ LabelImporter::LabelImporter(const Workbench& bench, AnnotationBar* bar)
        .run = [this] { ask(); },
        .section = label_section::kFiles,
        .enabled = [this] { return session_.scene() != nullptr; }});
-  bar->addAction(bench.commands.find("file.import_labels"), "button.file.import_labels");
+  bar->addAction(bench.commands.find("file.import_labels"));
   // Hears of drops before what opens light fields does.
   connect(&bench.frame, &Frame::tabShown, this, [this] { bench_.window.installEventFilter(this); });
 }
@@ -374,11 +367,6 @@ class ExportLabelsDialog : public QDialog {
   std::vector<LabelTarget> targets_;
 };
 
-void disable_last(QComboBox& box) {
-  auto* items = qobject_cast<QStandardItemModel*>(box.model());
-  items->item(box.count() - 1)->setEnabled(false);
-}
-
 ExportLabelsDialog::ExportLabelsDialog(QWidget* parent, const Labeling& labeling,
                                        bool is_up_to_date)
     : QDialog(parent),
@@ -393,7 +381,7 @@ ExportLabelsDialog::ExportLabelsDialog(QWidget* parent, const Labeling& labeling
   addForm(tr("Labels (HDF5)"), {Kind::Hdf5});
   addForm(tr("Labels and probabilities (HDF5)"), {Kind::Hdf5WithProbabilities});
   const bool has_probabilities = !labeling.probabilities.empty();
-  if (!has_probabilities) disable_last(*form_);
+  if (!has_probabilities) set_item_enabled(form_, form_->count() - 1, false);
   addForm(tr("PNG with a palette, one for each view"), {Kind::Folder, io::LabelForm::Indexed});
   addForm(tr("PASCAL VOC"), {Kind::Folder, io::LabelForm::Voc});
   addForm(tr("COCO"), {Kind::Folder, io::LabelForm::Coco});
@@ -410,24 +398,15 @@ ExportLabelsDialog::ExportLabelsDialog(QWidget* parent, const Labeling& labeling
   auto* warning = wrapped_label("exportLabels.warning", this);
   warning->setText(tr("These labels are out of date: strokes or settings changed since."));
   warning->setVisible(!is_up_to_date);
-  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
-  auto* go_on = buttons->addButton(tr("Export…"), QDialogButtonBox::AcceptRole);
-  go_on->setObjectName("exportLabels.export");
-  go_on->setDefault(true);
   auto* form = new QFormLayout;
   form->addRow(tr("Form"), form_);
-  auto* layout = new QVBoxLayout(this);
-  for (QWidget* each : std::initializer_list<QWidget*>{extent, warning}) layout->addWidget(each);
-  layout->addLayout(form);
-  layout->addWidget(views_);
-  layout->addWidget(buttons);
+  auto* answers = make_answers(this, "exportLabels.export", tr("Export…"));
+  make_column(this, {extent, warning, form, views_, answers}, {.margins = kStyleMargins});
   const auto follow = [this] {
     const LabelTarget& chosen = target();
     views_->setEnabled(chosen.kind == Kind::Folder && chosen.form != io::LabelForm::Indexed);
   };
   connect(form_, &QComboBox::currentIndexChanged, this, follow);
-  connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
-  connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
   follow();
 }
 

@@ -53,7 +53,7 @@ LabelReviewController::LabelReviewController(const Workbench& bench, LabelReview
 }
 
 void LabelReviewController::addCommands() {
-  const auto has_document = [this] { return std::as_const(bench_.document).document() != nullptr; };
+  const auto has_document = [this] { return bench_.document.document() != nullptr; };
   struct Row {
     const char* id;
     QString text;
@@ -76,7 +76,7 @@ void LabelReviewController::addCommands() {
                                            .run = [this, by = row.step] { step(by); },
                                            .section = kCheckSection,
                                            .enabled = has_document});
-    panel_->addAction(action, QString("button.%1").arg(row.id));
+    panel_->addAction(action);
   }
 }
 
@@ -94,7 +94,7 @@ PixelRegion region_of(const Blob& blob) {
 }  // namespace
 
 std::optional<LabelReviewController::Subject> LabelReviewController::subject() const {
-  const AnnotationDocument* document = std::as_const(bench_.document).document();
+  const AnnotationDocument* document = bench_.document.document();
   if (!document || !bench_.session.scene()) return std::nullopt;
   const auto source = bench_.overlay.sourceOf({render::Quantity::Segmentation});
   if (!source) return std::nullopt;
@@ -124,7 +124,7 @@ void LabelReviewController::look() {
 
 void LabelReviewController::begin(const Subject& subject) {
   const auto painted =
-      std::make_shared<const ScribbleLayer>(std::as_const(bench_.document).document()->scribbles());
+      std::make_shared<const ScribbleLayer>(bench_.document.document()->scribbles());
   job_.start<ViewReview>(
       [subject, painted](const Progress& progress) {
         return review_view(*subject.labeling, subject.finish, subject.view, *painted,
@@ -141,8 +141,7 @@ void LabelReviewController::take(ViewReview review) {
 }
 
 LabelInfo LabelReviewController::infoOf(int id) const {
-  const AnnotationDocument* document = std::as_const(bench_.document).document();
-  const LabelInfo* known = document ? document->labels().find(id) : nullptr;
+  const LabelInfo* known = bench_.document.labels().find(id);
   return known ? *known : LabelInfo{id, tr("label %1").arg(id).toStdString(), label_color(id)};
 }
 
@@ -322,7 +321,7 @@ void StripController::addCommands(LabelReviewPanel* panel) {
        .run = [this] { open(); },
        .section = kCheckSection,
        .enabled = [this] { return bench_.labels.current() != 0; }});
-  panel->addAction(action, "button.review.strip");
+  panel->addAction(action);
 }
 
 void StripController::open() {

@@ -11,7 +11,6 @@
 #include "widgets/panels/brush_panel.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace episcope {
 
@@ -62,7 +61,7 @@ void ScribbleController::update(Parts parts) {
 }
 
 QImage ScribbleController::picture(const PixelRect& rect) const {
-  const AnnotationDocument& document = *std::as_const(document_).document();
+  const AnnotationDocument& document = *document_.document();
   const ViewIndex view = session_.view();
   ScribbleLayers layers{document.scribbles().view(view), {}};
   if (carried_) layers.carried = carried_->view(view);
@@ -70,7 +69,7 @@ QImage ScribbleController::picture(const PixelRect& rect) const {
 }
 
 void ScribbleController::show() {
-  const AnnotationDocument* document = std::as_const(document_).document();
+  const AnnotationDocument* document = document_.document();
   if (!document || bench_.viewer_area.isPreviewing()) {
     canvas_->setScribbles({});
     return;
@@ -82,7 +81,7 @@ void ScribbleController::show() {
 void ScribbleController::showRect(ViewIndex view, const PixelRect& rect) {
   if (view != session_.view() || bench_.viewer_area.isPreviewing()) return;
   // What is painted beside a pixel decides whether that is on a contour.
-  const ScribbleLayer& layer = std::as_const(document_).document()->scribbles();
+  const ScribbleLayer& layer = document_.document()->scribbles();
   const PixelRect wider{std::max(rect.y0 - 1, 0), std::max(rect.x0 - 1, 0),
                         std::min(rect.y1 + 1, layer.height()),
                         std::min(rect.x1 + 1, layer.width())};
@@ -137,7 +136,7 @@ void ScribbleController::dropCarried() {
 }
 
 void ScribbleController::carry() {
-  const AnnotationDocument* document = std::as_const(document_).document();
+  const AnnotationDocument* document = document_.document();
   const auto by = field();
   if (!is_carried_ || !document || !by) {
     dropCarried();

@@ -109,8 +109,7 @@ void SegmentController::connectPanel() {
 }
 
 bool SegmentController::hasSegmentation() const {
-  return live_.labeling(session_.view()) && std::as_const(document_).document() &&
-         live_.has_input();
+  return live_.labeling(session_.view()) && document_.document() && live_.has_input();
 }
 
 bool SegmentController::hasAllViews() const {
@@ -123,8 +122,7 @@ bool SegmentController::isSegmentationUpToDate() const {
 
 std::optional<Segmentation> SegmentController::segmentation() const {
   if (!hasSegmentation()) return std::nullopt;
-  const AnnotationDocument* document = std::as_const(document_).document();
-  return Segmentation{live_.widest(session_.view()), document->labels().labels(),
+  return Segmentation{live_.widest(session_.view()), document_.labels().labels(),
                       labeler_schema().values(possible_parameters(*live_.input())),
                       live_.input()->light_field->info().reading, finish()};
 }
@@ -163,8 +161,7 @@ QString SegmentController::title(render::Quantity quantity) const {
 
 std::optional<MapSource> SegmentController::map_source(render::Quantity quantity,
                                                        ViewIndex view) const {
-  const AnnotationDocument* document = std::as_const(document_).document();
-  if (!document || !live_.has_input()) return std::nullopt;
+  if (!document_.document() || !live_.has_input()) return std::nullopt;
   MapSource source;
   source.quantity = quantity;
   source.view = view;
@@ -177,7 +174,7 @@ std::optional<MapSource> SegmentController::map_source(render::Quantity quantity
   }
   source.labeling = live_.labeling(view);
   if (quantity == render::Quantity::Segmentation || quantity == render::Quantity::WrongLabels) {
-    source.label_infos = document->labels().labels();
+    source.label_infos = document_.labels().labels();
   }
   if (quantity == render::Quantity::Segmentation) {
     source.label_style = session_.label_style();
@@ -195,7 +192,7 @@ std::optional<MapSource> SegmentController::map_source(render::Quantity quantity
 }
 
 double SegmentController::smoothing() const {
-  const AnnotationDocument* document = std::as_const(document_).document();
+  const AnnotationDocument* document = document_.document();
   return document ? document->boundary_smoothing_px() : 0;
 }
 
@@ -228,7 +225,7 @@ void SegmentController::update(Parts parts) {
 
 // An input of the labels changed.
 void SegmentController::noteInput() {
-  const AnnotationDocument* document = std::as_const(document_).document();
+  const AnnotationDocument* document = document_.document();
   if (!document || !session_.scene()) {
     live_.clear();
     is_wanted_ = false;
@@ -443,10 +440,9 @@ void SegmentController::showState() {
 }
 
 void SegmentController::score() {
-  const AnnotationDocument* document = std::as_const(document_).document();
   // While another light field is opened, the labels of the last one are still there.
   scores_.judge({session_.scene() ? live_.labeling(session_.view()) : nullptr, finish(),
-                 document ? document->labels().labels() : std::vector<LabelInfo>()},
+                 document_.labels().labels()},
                 live_.has_input() ? live_.input()->disparity : nullptr);
 }
 
@@ -489,8 +485,7 @@ void SegmentController::startAllViews() {
   job = jobs_.start<LabelingPtr>(
       Lane::Label, job_title(tr("Segment all views"), session_),
       [input](const Progress& progress) { return label_all_views(*input, progress); },
-      [this, input, scene, infos = std::as_const(document_).document()->labels().labels()](
-          const LabelingPtr& labeling) {
+      [this, input, scene, infos = document_.labels().labels()](const LabelingPtr& labeling) {
         if (input->light_field == session_.light_field()) {
           finishAll(labeling, input);
         } else {
@@ -530,9 +525,8 @@ void SegmentController::keep(const LabelingPtr& labeling, const LabelingInput& i
   const bool keeps_all = kept.covers_many() || (!kept.labeling && !kept.file.empty());
   if (labeling->is_draft || labeling == kept.labeling) return;
   if (labeling->labels.grid().count() == 1 && keeps_all) return;
-  session_.set_labels(
-      session_.generation(),
-      kept_labels(labeling, std::as_const(document_).document()->labels().labels(), input));
+  session_.set_labels(session_.generation(),
+                      kept_labels(labeling, document_.labels().labels(), input));
 }
 
 // Runs once each time a scene is shown.
@@ -560,8 +554,7 @@ void SegmentController::restore() {
 void SegmentController::takeLabels(const LabelingPtr& labeling) {
   if (!live_.has_input()) return;
   noteInput();
-  KeptLabels kept =
-      kept_labels(labeling, std::as_const(document_).document()->labels().labels(), *live_.input());
+  KeptLabels kept = kept_labels(labeling, document_.labels().labels(), *live_.input());
   kept.is_imported = true;
   session_.set_labels(session_.generation(), kept);
   wants_to_show_ = true;
@@ -675,7 +668,7 @@ void SegmentController::addOverlayCommands() {
       overlay.setQuantity(overlay.quantity() == quantity ? Quantity::View : quantity);
     };
     QAction* action = bench_.commands.add(command);
-    panel_->addOverlay(action, QString("button.%1").arg(row.id));
+    panel_->addOverlay(action);
   }
 }
 
@@ -685,7 +678,7 @@ void SegmentController::addCommands() {
   addSmoothingCommands();
   addOverlayCommands();
   for (const char* id : {"segment.live", "segment.update", "segment.all"}) {
-    panel_->addAction(bench_.commands.find(id), QString("button.%1").arg(id));
+    panel_->addAction(bench_.commands.find(id));
   }
 }
 

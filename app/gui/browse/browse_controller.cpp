@@ -247,7 +247,7 @@ void BrowseController::showFocusReach() {
 }
 
 void BrowseController::markPainted() {
-  const AnnotationDocument* document = std::as_const(bench_.document).document();
+  const AnnotationDocument* document = bench_.document.document();
   grid_->setPainted(document ? document->scribbles().painted_views() : std::vector<ViewIndex>());
 }
 

@@ -110,7 +110,7 @@ void CloudController::makePanel() {
   panel_->controls().setChoice(settings.choice);
   panel_->controls().setLook(settings.look);
   for (const char* id : {"cloud.large", "cloud.window"}) {
-    panel_->addButton(make_action_button(bench_.commands.find(id), id, panel_));
+    panel_->addButton(make_action_button(bench_.commands.find(id), panel_));
   }
   make_column(tab_, {panel_});
   connectPanel();

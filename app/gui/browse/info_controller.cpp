@@ -132,7 +132,7 @@ PatternPanel::PatternPanel(const QString& path, QWidget* parent)
       this);
   help->setTextFormat(Qt::PlainText);
   help->setWordWrap(true);
-  help->setPalette(theme::text_palette(theme::muted_text(palette())));
+  theme::mute(help);
   summary_->setTextFormat(Qt::PlainText);
   summary_->setWordWrap(true);
   names_->setHeaderLabels({tr("File"), tr("Row"), tr("Column"), tr("Number"), tr("View")});
@@ -219,12 +219,8 @@ ConventionsDialog::ConventionsDialog(const QString& path,
   note->setWordWrap(true);
   form_->setParameters(options);
   form_->setValues(given);
-  auto* buttons =
-      new QDialogButtonBox(QDialogButtonBox::Cancel | QDialogButtonBox::RestoreDefaults, this);
-  auto* apply = buttons->addButton(tr("Read again"), QDialogButtonBox::AcceptRole);
-  apply->setObjectName("conventions.apply");
-  apply->setDefault(true);
-  QPushButton* reset = buttons->button(QDialogButtonBox::RestoreDefaults);
+  auto* buttons = make_answers(this, "conventions.apply", tr("Read again"));
+  QPushButton* reset = buttons->addButton(QDialogButtonBox::RestoreDefaults);
   reset->setText(tr("All automatic"));
   reset->setObjectName("conventions.reset");
   auto* layout = make_column(this, {file, form_}, {.margins = kStyleMargins});
@@ -236,8 +232,6 @@ ConventionsDialog::ConventionsDialog(const QString& path,
   }
   layout->addWidget(note);
   layout->addWidget(buttons);
-  connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
-  connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
   connect(reset, &QPushButton::clicked, form_, &ParameterForm::resetToDefaults);
   layout->activate();
   const int width = has_names ? kWidthWithNames : kConventionsWidth;

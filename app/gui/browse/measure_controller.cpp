@@ -211,16 +211,12 @@ void MeasureController::copy() {
 }
 
 void MeasureController::save() {
-  ask_where_to_save(bench_,
-                    {.name = "save_measurements",
-                     .title = tr("Save the measurements"),
-                     .filter = tr("CSV (*.csv)"),
-                     .proposal = named_after_front(bench_, "measurements.csv")},
-                    [this, text = QString::fromStdString(csv())](const QString& path) {
-                      write_in_background(
-                          bench_.jobs, bench_.messages, path,
-                          [path, text](const Progress&) { write_text_file(path, text); });
-                    });
+  ask_where_to_save_text(bench_,
+                         {.name = "save_measurements",
+                          .title = tr("Save the measurements"),
+                          .filter = tr("CSV (*.csv)"),
+                          .proposal = named_after_front(bench_, "measurements.csv")},
+                         QString::fromStdString(csv()));
 }
 
 }  // namespace episcope

@@ -17,7 +17,6 @@
 #include <QSettings>
 
 #include <algorithm>
-#include <utility>
 #include <vector>
 
 namespace episcope {
@@ -117,7 +116,7 @@ QString name_in(const std::vector<LabelInfo>& infos, int id, const QString& unna
 }  // namespace
 
 QStringList ValueController::labelsAt(PixelIndex pixel) const {
-  const AnnotationDocument* document = std::as_const(bench_.document).document();
+  const AnnotationDocument* document = bench_.document.document();
   if (!document) return {};
   const ViewIndex view = session_.view();
   const std::vector<LabelInfo>& infos = document->labels().labels();

@@ -89,13 +89,8 @@ void ask_for_values(QWidget* window, const FormQuestion& question,
   auto* form = new ParameterForm(dialog);
   form->setParameters(question.parameters);
   form->setValues(question.values);
-  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, dialog);
-  auto* accept = buttons->addButton(question.accept, QDialogButtonBox::AcceptRole);
-  accept->setObjectName(question.name + ".accept");
-  accept->setDefault(true);
-  make_column(dialog, {form, buttons}, {.margins = kStyleMargins});
-  QObject::connect(buttons, &QDialogButtonBox::accepted, dialog, &QDialog::accept);
-  QObject::connect(buttons, &QDialogButtonBox::rejected, dialog, &QDialog::reject);
+  auto* answers = make_answers(dialog, question.name + ".accept", question.accept);
+  make_column(dialog, {form, answers}, {.margins = kStyleMargins});
   QObject::connect(dialog, &QDialog::accepted, window,
                    [form, answer = std::move(answer)] { answer(form->values()); });
   dialog->open();

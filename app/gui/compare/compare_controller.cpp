@@ -463,11 +463,11 @@ void CompareController::addCommands() {
   addPairCommands();
   for (const char* id :
        {"overlay.disparity", "overlay.error", "overlay.absolute_error", "overlay.bad_pixels"}) {
-    bar_->addMap(bench_.commands.find(id), QString("button.%1").arg(id));
+    bar_->addMap(bench_.commands.find(id));
   }
   for (const char* id :
        {"compare.wipe", "compare.sides", "compare.tiles", "compare.difference", "compare.swap"}) {
-    bar_->addAction(bench_.commands.find(id), QString("button.%1").arg(id));
+    bar_->addAction(bench_.commands.find(id));
   }
   connect(&overlay_, &Overlay::choiceChanged, &bench_.commands, &Commands::refresh);
 }

@@ -266,16 +266,12 @@ void MetricController::tell(const std::vector<std::string>& notes) {
 }
 
 void MetricController::save(const QString& suffix, const QString& text) {
-  ask_where_to_save(bench_,
-                    {.name = "save_table",
-                     .title = tr("Save the table"),
-                     .filter = suffix == "csv" ? tr("CSV (*.csv)") : tr("LaTeX (*.tex)"),
-                     .proposal = named_after_front(bench_, "metrics." + suffix)},
-                    [this, text](const QString& path) {
-                      write_in_background(
-                          bench_.jobs, bench_.messages, path,
-                          [path, text](const Progress&) { write_text_file(path, text); });
-                    });
+  ask_where_to_save_text(bench_,
+                         {.name = "save_table",
+                          .title = tr("Save the table"),
+                          .filter = suffix == "csv" ? tr("CSV (*.csv)") : tr("LaTeX (*.tex)"),
+                          .proposal = named_after_front(bench_, "metrics." + suffix)},
+                         text);
 }
 
 namespace {

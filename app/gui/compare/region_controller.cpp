@@ -17,7 +17,6 @@
 #include <QLocale>
 
 #include <algorithm>
-#include <utility>
 
 namespace episcope {
 namespace {
@@ -88,7 +87,7 @@ void RegionController::addCommands(RegionBar& bar) {
                        .run = [this] { choose(JudgedPixels::Whole); },
                        .section = compare_section::kRange,
                        .enabled = [this] { return now().pixels != JudgedPixels::Whole; }});
-  bar.addAction(draw, "region.draw");
+  bar.addAction(draw);
 }
 
 void RegionController::connectTool() {
@@ -316,7 +315,7 @@ RegionPtr RegionController::labelRegion() const {
     const auto labels = labeling->labels.view(view);
     return mask_where(light_field, [&](int y, int x) { return labels.at(y, x) == label; });
   }
-  const AnnotationDocument* document = std::as_const(bench_.document).document();
+  const AnnotationDocument* document = bench_.document.document();
   const auto painted =
       document ? document->scribbles().view(view) : ImageView<const std::uint8_t>();
   return mask_where(light_field, [&](int y, int x) {

@@ -460,12 +460,12 @@ struct MeasuredRangeText {
 void take(const Workbench& bench, MethodPanel* panel, RangeEnd end) {
   const EpiMeasurement* measured = current_of(bench.session.place().measured);
   RunRequest request = panel->request();
-  const auto found = std::ranges::find(request.values, kRange, &ParameterSet::value_type::first);
-  if (!measured || found == request.values.end()) return;
-  const auto& chosen = std::get<IntervalOrAuto>(found->second);
+  const ParameterValue* found = find_value(request.values, kRange);
+  if (!measured || !found) return;
+  const auto& chosen = std::get<IntervalOrAuto>(*found);
   const Interval range =
       with_end(chosen ? *chosen : bench.session.known_range(), end, measured->disparity_px);
-  found->second = IntervalOrAuto(range);
+  set_value(request.values, kRange, IntervalOrAuto(range));
   panel->setRequest(request);
   bench.messages.hint(MeasuredRangeText::tr("Disparity range of the next run: %1 … %2 px")
                           .arg(number_text(range.min, 2), number_text(range.max, 2)));

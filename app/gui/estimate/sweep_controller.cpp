@@ -464,17 +464,13 @@ void SweepController::save() {
   const QString text = QString::fromStdString(table_to_csv(
       sweep_table(sweep.scenes, {{"method", sweep.base.method}, {"parameters", parameters}})));
   const std::string stem = sweep.scenes.size() == 1 ? sweep.scenes.front().name + "_" : "";
-  ask_where_to_save(bench_,
-                    {.name = "save_sweep",
-                     .title = tr("Save the sweep"),
-                     .filter = tr("CSV (*.csv)"),
-                     .proposal = QString::fromStdString(stem + sweep.base.method + "_sweep.csv")},
-                    [this, text, written = sweep](const QString& path) {
-                      write_in_background(
-                          bench_.jobs, bench_.messages, path,
-                          [path, text](const Progress&) { write_text_file(path, text); },
-                          [this, written] { bench_.scenes.sweeps().mark_saved(written); });
-                    });
+  ask_where_to_save_text(
+      bench_,
+      {.name = "save_sweep",
+       .title = tr("Save the sweep"),
+       .filter = tr("CSV (*.csv)"),
+       .proposal = QString::fromStdString(stem + sweep.base.method + "_sweep.csv")},
+      text, [this, written = sweep] { bench_.scenes.sweeps().mark_saved(written); });
 }
 
 namespace {

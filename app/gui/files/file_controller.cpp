@@ -104,14 +104,9 @@ BuiltinDialog::BuiltinDialog(QWidget* parent)
   listScenes();
   form_->setParameters(random_parameters());
   written_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-  written_->setPalette(theme::text_palette(theme::muted_text(palette())));
-  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
-  auto* open = buttons->addButton(tr("Open"), QDialogButtonBox::AcceptRole);
-  open->setObjectName("builtin.open");
-  open->setDefault(true);
-  make_column(this, {{scenes_, 1}, form_, written_, buttons}, {.margins = kStyleMargins});
-  connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
-  connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+  theme::mute(written_);
+  auto* answers = make_answers(this, "builtin.open", tr("Open"));
+  make_column(this, {{scenes_, 1}, form_, written_, answers}, {.margins = kStyleMargins});
   connect(scenes_, &QListWidget::itemDoubleClicked, this, &QDialog::accept);
   connect(scenes_, &QListWidget::currentItemChanged, this, &BuiltinDialog::showChosen);
   connect(form_, &ParameterForm::valuesChanged, this, &BuiltinDialog::showChosen);

@@ -24,12 +24,13 @@ DocumentController::~DocumentController() {
   for (auto& [scene, open] : aside_) finish(open);
 }
 
-AnnotationDocument* DocumentController::document() {
+const AnnotationDocument* DocumentController::document() const {
   return isCurrent() ? &now_.annotation->document() : nullptr;
 }
 
-const AnnotationDocument* DocumentController::document() const {
-  return isCurrent() ? &now_.annotation->document() : nullptr;
+const LabelSet& DocumentController::labels() const {
+  static const LabelSet kNone;
+  return isCurrent() ? now_.annotation->document().labels() : kNone;
 }
 
 bool DocumentController::isCurrent() const {
@@ -396,28 +397,20 @@ LabelChoice::LabelChoice(DocumentController& document, QObject* parent)
   });
 }
 
-bool LabelChoice::isKnown(int id) const {
-  const AnnotationDocument* document = std::as_const(document_).document();
-  return document && document->labels().contains(id);
-}
-
 void LabelChoice::followDocument() {
-  if (!isKnown(current_)) current_ = isKnown(former_) ? former_ : 0;
-  if (!isKnown(former_)) former_ = 0;
-  const AnnotationDocument* document = std::as_const(document_).document();
-  if (current_ == 0 && document && !document->labels().labels().empty()) {
-    current_ = document->labels().labels().front().id;
-  }
+  const LabelSet& labels = document_.labels();
+  if (!labels.contains(current_)) current_ = labels.contains(former_) ? former_ : 0;
+  if (!labels.contains(former_)) former_ = 0;
+  if (current_ == 0 && !labels.labels().empty()) current_ = labels.labels().front().id;
   emit changed();
 }
 
 const LabelInfo* LabelChoice::info() const {
-  const AnnotationDocument* document = std::as_const(document_).document();
-  return document ? document->labels().find(current_) : nullptr;
+  return document_.labels().find(current_);
 }
 
 bool LabelChoice::choose(int id) {
-  if (!isKnown(id)) return false;
+  if (!document_.labels().contains(id)) return false;
   if (id == current_) return true;
   former_ = std::exchange(current_, id);
   emit changed();
@@ -425,9 +418,8 @@ bool LabelChoice::choose(int id) {
 }
 
 void LabelChoice::chooseNext() {
-  const AnnotationDocument* document = std::as_const(document_).document();
-  if (!document || document->labels().labels().empty()) return;
-  const auto& labels = document->labels().labels();
+  const auto& labels = document_.labels().labels();
+  if (labels.empty()) return;
   const auto next = std::ranges::upper_bound(labels, current_, {}, &LabelInfo::id);
   choose(next == labels.end() ? labels.front().id : next->id);
 }

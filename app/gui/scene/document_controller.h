@@ -42,8 +42,9 @@ class DocumentController : public QObject {
   [[nodiscard]] const std::filesystem::path& journalFolder() const { return journal_folder_; }
 
   /// Null without a light field, or before its document exists.
-  [[nodiscard]] AnnotationDocument* document();
   [[nodiscard]] const AnnotationDocument* document() const;
+  /// Those of the document; none without one.
+  [[nodiscard]] const LabelSet& labels() const;
   /// Whether the document holds all scribbles of the light field's own files; if not, those must
   /// not be overwritten.
   [[nodiscard]] bool isWhole() const { return now_.is_whole; }
@@ -189,7 +190,6 @@ class LabelChoice : public QObject {
 
  private:
   void followDocument();
-  [[nodiscard]] bool isKnown(int id) const;
 
   DocumentController& document_;
   int current_ = 0;

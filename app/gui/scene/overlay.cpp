@@ -37,11 +37,6 @@ bool is_error(Quantity quantity) {
   return subject == Subject::Error || subject == Subject::ResultPair;
 }
 
-bool is_of_results(Quantity quantity) {
-  const Subject subject = render::info_of(quantity).subject;
-  return subject == Subject::Result || subject == Subject::Error;
-}
-
 }  // namespace
 
 Overlay::Overlay(Session& session, ViewerArea& viewer_area, QObject* parent)
@@ -162,7 +157,7 @@ void Overlay::choose(Quantity quantity) {
 }
 
 void Overlay::showResults() {
-  if (!is_of_results(quantity_)) setQuantity(Quantity::Disparity);
+  if (!is_of_result(quantity_)) setQuantity(Quantity::Disparity);
 }
 
 void Overlay::selectNextQuantity() {
@@ -189,12 +184,12 @@ MapChoice Overlay::choice() const {
 
 MapChoice Overlay::choiceA() const {
   const EstimateEntry* shown = session_.side_a();
-  return {quantity_, shown && is_of_results(quantity_) ? shown->id : 0, 0};
+  return {quantity_, shown && is_of_result(quantity_) ? shown->id : 0, 0};
 }
 
 MapChoice Overlay::choiceB() const {
   const EstimateEntry* compared = session_.side_b();
-  if (is_of_results(quantity_) && compared) return {quantity_, compared->id, 0};
+  if (is_of_result(quantity_) && compared) return {quantity_, compared->id, 0};
   const Quantity other = quantity_ == Quantity::Disparity      ? Quantity::Truth
                          : quantity_ == Quantity::Segmentation ? Quantity::TrueLabels
                                                                : Quantity::View;
@@ -267,7 +262,7 @@ void Overlay::drawMap(const MapChoice& choice) {
   if (!source) {
     // While the errors of a view are computed, what was drawn stays: a few milliseconds.
     is_up_to_date_ =
-        !session_.scene() || !is_of_results(choice.quantity) || !session_.is_evaluating();
+        !session_.scene() || !is_of_result(choice.quantity) || !session_.is_evaluating();
     if (!is_up_to_date_) return;
     map_ = nullptr;
     picture_ = {};
@@ -369,7 +364,7 @@ void Overlay::showCaption(const MapChoice& choice) const {
     caption += tr(" · no such map for this view");
   }
   // Truth and labels are of neither.
-  const bool has_sides = is_of_results(quantity_) && choice.quantity != Quantity::Difference &&
+  const bool has_sides = is_of_result(quantity_) && choice.quantity != Quantity::Difference &&
                          (is_flipped_ || session_.side_b());
   viewer_area_.canvas()->setCaption(caption, !has_sides    ? Side::None
                                              : is_flipped_ ? Side::B

@@ -83,14 +83,10 @@ ReadingQuestion::ReadingQuestion(const io::Undecided& question, QWidget* parent)
   if (auto* first = buttons_->button(0)) first->setChecked(true);
   auto* note =
       paragraph(tr("Your choice is remembered for this file; “Conventions…” changes it."), this);
-  note->setPalette(theme::text_palette(theme::muted_text(palette())));
+  theme::mute(note);
   layout->addWidget(note);
   layout->addStretch(1);
-  auto* answer = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
-  answer->addButton(tr("Open"), QDialogButtonBox::AcceptRole)->setObjectName("readingQuestion.ok");
-  layout->addWidget(answer);
-  connect(answer, &QDialogButtonBox::accepted, this, &QDialog::accept);
-  connect(answer, &QDialogButtonBox::rejected, this, &QDialog::reject);
+  layout->addWidget(make_answers(this, "readingQuestion.ok", tr("Open")));
   layout->activate();
   resize(kQuestionWidth, layout->heightForWidth(kQuestionWidth));
 }

@@ -13,7 +13,6 @@
 #include <QLineEdit>
 #include <QListWidget>
 #include <QPushButton>
-#include <QSignalBlocker>
 #include <QTimer>
 #include <QTreeWidget>
 #include <QTreeWidgetItemIterator>
@@ -240,8 +239,7 @@ ShortcutWindow::ShortcutWindow(Commands& commands, QWidget* parent)
   tree_->resizeColumnToContents(0);
   tree_->setColumnWidth(0, std::clamp(tree_->columnWidth(0), 190, 330));
   connect(tree_, &QTreeWidget::itemSelectionChanged, this, [this] {
-    const QSignalBlocker blocker(edit_);
-    edit_->clear();
+    Quietly(edit_)->clear();
     updateEditor();
   });
   connect(tree_, &QTreeWidget::itemActivated, edit_, qOverload<>(&QWidget::setFocus));
@@ -397,8 +395,7 @@ void ShortcutWindow::setKey() {
     commands_.setKeys(user, left);
   }
   commands_.setKeys(id, {key});
-  const QSignalBlocker blocker(edit_);
-  edit_->clear();
+  Quietly(edit_)->clear();
   updateEditor();
 }
 

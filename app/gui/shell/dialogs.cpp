@@ -6,7 +6,7 @@
 #include "app/gui/shell/workbench.h"
 #include "app/session/load_scene.h"
 #include "app/session/session.h"
-#include "engine/core/error.h"
+#include "engine/io/base/atomic_file.h"
 #include "widgets/controls/layout.h"
 #include "widgets/controls/text.h"
 
@@ -18,7 +18,6 @@
 #include <QFileInfo>
 #include <QLocale>
 #include <QPushButton>
-#include <QSaveFile>
 #include <QSettings>
 
 #include <unistd.h>
@@ -211,6 +210,16 @@ void write_in_background(Jobs& jobs, Messages& messages, const QString& path,
       });
 }
 
+void ask_where_to_save_text(const Workbench& bench, const FileQuestion& question,
+                            const QString& text, const std::function<void()>& written) {
+  ask_where_to_save(bench, question, [bench, text, written](const QString& path) {
+    write_in_background(
+        bench.jobs, bench.messages, path,
+        [path, text](const Progress&) { io::write_atomically(path_of(path), text.toStdString()); },
+        written);
+  });
+}
+
 namespace {
 
 constexpr int kMostNames = 5;
@@ -218,6 +227,20 @@ constexpr int kMostNames = 5;
 struct QuestionBoxText {
   Q_DECLARE_TR_FUNCTIONS(episcope::QuestionBox)
 };
+
+// Asks whether to do what cannot be undone.
+void confirm(QWidget* window, BoxQuestion question, QMessageBox::StandardButton yes,
+             std::function<void()> go_on, std::function<void()> otherwise) {
+  question.icon = QMessageBox::Warning;
+  question.buttons = yes | QMessageBox::Cancel;
+  auto* box = new_question_box(window, question);
+  box->setDefaultButton(QMessageBox::Cancel);
+  QObject::connect(box, &QDialog::finished, box,
+                   [=, go_on = std::move(go_on), otherwise = std::move(otherwise)](int answer) {
+                     answer == yes ? go_on() : otherwise();
+                   });
+  box->open();
+}
 
 }  // namespace
 
@@ -247,29 +270,17 @@ void confirm_replacing(QWidget* window, const QStringList& existing, std::functi
 }
 
 void confirm_replacing(QWidget* window, const QString& text, std::function<void()> go_on) {
-  auto* box = new_question_box(window, {.name = "replace_files",
-                                        .icon = QMessageBox::Warning,
-                                        .title = QuestionBoxText::tr("Replace files"),
-                                        .text = text,
-                                        .buttons = QMessageBox::Yes | QMessageBox::Cancel});
-  box->setDefaultButton(QMessageBox::Cancel);
-  QObject::connect(box->button(QMessageBox::Yes), &QAbstractButton::clicked, box, std::move(go_on));
-  box->open();
+  confirm(window,
+          {.name = "replace_files", .title = QuestionBoxText::tr("Replace files"), .text = text},
+          QMessageBox::Yes, std::move(go_on), [] {});
 }
 
 void confirm_discarding(QWidget* window, const QString& text, std::function<void()> discard,
                         std::function<void()> keep) {
-  auto* box = new_question_box(window, {.name = "discard_work",
-                                        .icon = QMessageBox::Warning,
-                                        .title = QuestionBoxText::tr("Discard earlier work"),
-                                        .text = text,
-                                        .buttons = QMessageBox::Discard | QMessageBox::Cancel});
-  box->setDefaultButton(QMessageBox::Cancel);
-  QObject::connect(box, &QDialog::finished, box,
-                   [discard = std::move(discard), keep = std::move(keep)](int answer) {
-                     answer == QMessageBox::Discard ? discard() : keep();
-                   });
-  box->open();
+  confirm(
+      window,
+      {.name = "discard_work", .title = QuestionBoxText::tr("Discard earlier work"), .text = text},
+      QMessageBox::Discard, std::move(discard), std::move(keep));
 }
 
 namespace {
@@ -306,17 +317,6 @@ void ask_about_changed_file(QWidget* window, const QString& path,
   }
   box->setDefaultButton(QMessageBox::Cancel);
   box->open();
-}
-
-void write_text_file(const QString& path, const QString& text) {
-  QSaveFile file(path);
-  const bool is_written =
-      file.open(QIODevice::WriteOnly) && file.write(text.toUtf8()) >= 0 && file.commit();
-  if (!is_written) {
-    throw IoError(path.toStdString(), "the file could not be written (" +
-                                          file.errorString().toStdString() +
-                                          "); choose another folder");
-  }
 }
 
 QString short_text(std::filesystem::file_time_type time) {

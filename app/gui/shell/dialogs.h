@@ -69,6 +69,10 @@ void write_in_background(Jobs& jobs, Messages& messages, const QString& path,
                          std::function<void(const Progress&)> write,
                          std::function<void()> written = nullptr);
 
+/// Asks for a file, then writes UTF-8 text to it as `write_in_background` does.
+void ask_where_to_save_text(const Workbench& bench, const FileQuestion& question,
+                            const QString& text, const std::function<void()>& written = nullptr);
+
 struct BoxQuestion {
   QString name;  ///< Object name of the box.
   QMessageBox::Icon icon = QMessageBox::Question;
@@ -94,9 +98,6 @@ struct ChangedFileAnswers {
 /// Asks without blocking; calls one of the answers or none.
 void ask_about_changed_file(QWidget* window, const QString& path,
                             const ChangedFileAnswers& answers);
-
-/// Writes UTF-8 text atomically. Throws IoError.
-void write_text_file(const QString& path, const QString& text);
 
 /// Modification time as local date and time in the short form of the user's language.
 [[nodiscard]] QString short_text(std::filesystem::file_time_type time);

@@ -11,6 +11,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 namespace episcope::io {
@@ -56,6 +57,21 @@ void require_readable_file(const std::filesystem::path& path);
 
 /// Why writing to `path` failed and what to do about it, from `errno` and the free space.
 [[nodiscard]] IoError write_error(const std::filesystem::path& path);
+
+/// Whether a file or folder exists; false for a link that leads to itself. Likewise a file, or a
+/// folder.
+[[nodiscard]] inline bool is_there(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return std::filesystem::exists(path, ignored);
+}
+[[nodiscard]] inline bool is_file(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(path, ignored);
+}
+[[nodiscard]] inline bool is_folder(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return std::filesystem::is_directory(path, ignored);
+}
 
 /// Creates a folder and its parents where they are missing. Throws IoError: "the folder cannot be
 /// created (why)" followed by `advice`, which begins with its own punctuation.

@@ -309,11 +309,6 @@ constexpr std::array kPoseFolders{"", "sparse/0", "sparse", "colmap"};
 
 constexpr std::array kParts{"train", "val", "test"};  ///< Of data sets for learning.
 
-bool is_file(const fs::path& path) {
-  std::error_code error;
-  return fs::is_regular_file(path, error);
-}
-
 constexpr int kDeepestImage = 4;  ///< Folders by which images of one name are told apart.
 
 /// The name, which with and without a suffix is the same image, and up to `folders` folders that it

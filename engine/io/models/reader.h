@@ -75,12 +75,6 @@ struct FoundReader {
 /// Finds the reader with this id; null for an unknown one.
 [[nodiscard]] const Reader* reader_named(const std::string& id);
 
-/// Whether a file or folder exists; false for a link that leads to itself.
-[[nodiscard]] inline bool is_there(const std::filesystem::path& path) {
-  std::error_code error;
-  return std::filesystem::exists(path, error);
-}
-
 /// Folder of a scene of images if `path` is the folder, one of its images or its parameters.cfg;
 /// else empty.
 [[nodiscard]] inline std::filesystem::path scene_folder(const std::filesystem::path& path) {

@@ -45,7 +45,7 @@ class WindowFixture {
   /// Clicks Run and waits for the result.
   void runAndWait();
 
-  [[nodiscard]] AnnotationDocument& document() { return *window.bench().document.document(); }
+  [[nodiscard]] const AnnotationDocument& document() { return *window.bench().document.document(); }
   [[nodiscard]] ViewIndex view() { return window.bench().session.view(); }
   /// Whether the view has its final labels, and nothing is on its way that would give others.
   [[nodiscard]] bool isSegmented();

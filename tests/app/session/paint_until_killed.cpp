@@ -9,11 +9,11 @@
 
 int main(int argc, char** argv) {
   if (argc != 3) return 2;
-  episcope::AnnotationDocument document({3, 3}, 200, 240);
-  const episcope::AnnotationJournal journal(argv[1], {"scene", "demo", 42}, document);
+  episcope::Annotation annotation({{3, 3}, 200, 240}, {"scene", "demo", 42}, argv[1]);
+  annotation.keep_journal();
   episcope::test::RandomEdits edits(static_cast<unsigned>(std::atoi(argv[2])), false);
   for (int done = 1;; ++done) {
-    edits.step(document);
+    edits.step(annotation.document());
     std::printf("%d\n", done);
     std::fflush(stdout);
   }

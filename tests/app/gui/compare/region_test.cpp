@@ -51,7 +51,7 @@ class Judging : public Compared {
   }
 
   void drawRectangle(PixelIndex from, PixelIndex to) {
-    click("region.draw");
+    click("button.compare.rectangle");
     drag(from, to);
     QCoreApplication::processEvents();
   }
@@ -109,7 +109,7 @@ void RegionTest::rectangle_isDrawnAndJudged() {
 
 void RegionTest::escape_leavesTheRectangle() {
   Judging f({0.5F});
-  f.click("region.draw");
+  f.click("button.compare.rectangle");
   QVERIFY(f.canvas()->tool());
   f.press({10, 10});
   f.move({30, 30});

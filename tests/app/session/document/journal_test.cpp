@@ -42,6 +42,20 @@ std::vector<std::uint8_t> bytes_of(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
+/// A document whose journal has begun.
+struct Journaled : Annotation {
+  Journaled(const std::filesystem::path& folder, AnnotationDocument document,
+            const JournalOwner& owner = kOwner)
+      : Annotation(std::move(document), owner, folder) {
+    keep_journal();
+  }
+  std::uintmax_t byte_size() const { return std::filesystem::file_size(journal_path()); }
+};
+
+AnnotationDocument new_document() {
+  return {kGrid, kHeight, kWidth};
+}
+
 void write(const std::filesystem::path& path, const std::vector<std::uint8_t>& bytes,
            std::size_t count) {
   std::ofstream file(path, std::ios::binary);
@@ -60,9 +74,9 @@ class JournalTest : public QObject {
   // Journals some steps and gives back the states after each record.
   std::filesystem::path make_journal(unsigned seed, int steps,
                                      std::vector<AnnotationDocument>& states) const {
-    AnnotationDocument document(kGrid, kHeight, kWidth);
     RandomEdits edits(seed);
-    const AnnotationJournal journal(folder(), kOwner, document);
+    Journaled journal(folder(), new_document());
+    AnnotationDocument& document = journal.document();
     const auto copy = [&] { return replay(journal_records(kOwner, document)).document; };
     states.push_back(copy());
     std::uintmax_t size = journal.byte_size();
@@ -72,7 +86,7 @@ class JournalTest : public QObject {
       size = journal.byte_size();
       states.push_back(copy());
     }
-    return journal.path();
+    return journal.journal_path();
   }
 
  private slots:
@@ -86,15 +100,16 @@ class JournalTest : public QObject {
   }
   void replay_makesTheSameDocument() {
     QFETCH(int, history_bytes);
-    AnnotationDocument document(kGrid, kHeight, kWidth, static_cast<std::size_t>(history_bytes));
+    AnnotationDocument begun(kGrid, kHeight, kWidth, static_cast<std::size_t>(history_bytes));
     RandomEdits edits(8);
-    for (int i = 0; i < 50; ++i) edits.step(document);
-    const AnnotationJournal journal(folder(), kOwner, document);
+    for (int i = 0; i < 50; ++i) edits.step(begun);
+    Journaled journal(folder(), std::move(begun));
+    AnnotationDocument& document = journal.document();
 
     for (int i = 0; i < 300; ++i) {
       edits.step(document);
       if (i % 20 != 0) continue;
-      const RecoveredAnnotation found = read_journal(journal.path());
+      const RecoveredAnnotation found = read_journal(journal.journal_path());
       QVERIFY(same(found.document, document));
       QVERIFY(found.owner == kOwner);
       // Written anew, it is the same again.
@@ -103,9 +118,9 @@ class JournalTest : public QObject {
   }
 
   void longSession_keepsTheJournalSmall() {
-    AnnotationDocument document({1, 1}, 1500, 1500, 100000);
+    Journaled journal(folder(), AnnotationDocument({1, 1}, 1500, 1500, 100000));
+    AnnotationDocument& document = journal.document();
     document.add_label();
-    const AnnotationJournal journal(folder(), kOwner, document);
     std::uintmax_t largest = 0;
     for (int i = 0; i < 2500; ++i) {
       const double place = 10 + i % 1400;
@@ -117,10 +132,10 @@ class JournalTest : public QObject {
       largest = std::max(largest, journal.byte_size());
     }
 
-    QVERIFY(largest > AnnotationJournal::kSlackBytes);  // it was written anew on the way
+    QVERIFY(largest > Annotation::kSlackBytes);  // it was written anew on the way
     QVERIFY(journal.byte_size() < largest);
-    QVERIFY(same(read_journal(journal.path()).document, document));
-    QVERIFY(io::is_held(journal.path()));
+    QVERIFY(same(read_journal(journal.journal_path()).document, document));
+    QVERIFY(io::is_held(journal.journal_path()));
   }
 
   void tornJournal_losesTheTornStepOnly() {
@@ -181,23 +196,21 @@ class JournalTest : public QObject {
   }
 
   void leftJournals_areThoseOfTheDeadWithUnsavedChanges() {
-    AnnotationDocument living(kGrid, kHeight, kWidth);
-    const AnnotationJournal held(folder(), kOwner, living);
-    living.add_label();
-    AnnotationDocument ended(kGrid, kHeight, kWidth);
-    AnnotationDocument saved(kGrid, kHeight, kWidth);
-    AnnotationDocument dead(kGrid, kHeight, kWidth);
+    Journaled held(folder(), new_document());
+    held.document().add_label();
+    AnnotationDocument lost = new_document();
+    lost.add_label("lost");
     std::filesystem::path path_of_dead;
     {
-      AnnotationJournal journal(folder(), kOwner, ended);
-      ended.add_label();
-      journal.finish();
-      const AnnotationJournal of_saved(folder(), kOwner, saved);
-      saved.add_label();
-      saved.mark_saved();
-      const AnnotationJournal of_dead(folder(), {"other", "b.h5", 7}, dead);
-      dead.add_label("lost");
-      path_of_dead = of_dead.path();
+      Journaled ended(folder(), new_document());
+      ended.document().add_label();
+      ended.finish();
+      Journaled saved(folder(), new_document());
+      saved.document().add_label();
+      saved.document().mark_saved();
+      Journaled dead(folder(), new_document(), {"other", "b.h5", 7});
+      dead.document().add_label("lost");
+      path_of_dead = dead.journal_path();
     }
     write(folder() / "later.journal", {1, 2, 3}, 3);  // of a later program, perhaps
     write(folder() / "empty.journal", {}, 0);
@@ -207,10 +220,10 @@ class JournalTest : public QObject {
     QCOMPARE(left.size(), std::size_t{1});
     QCOMPARE(left[0].path, path_of_dead);
     QCOMPARE(left[0].owner.source, std::string("b.h5"));
-    QVERIFY(same(read_journal(left[0].path).document, dead));
+    QVERIFY(same(read_journal(left[0].path).document, lost));
     discard_journal(left[0].path);
     QVERIFY(recoverable_journals(folder()).empty());
-    QVERIFY(std::filesystem::exists(held.path()));
+    QVERIFY(std::filesystem::exists(held.journal_path()));
     QVERIFY(std::filesystem::exists(folder() / "later.journal"));
     QVERIFY(!std::filesystem::exists(folder() / "empty.journal"));
     QVERIFY(recoverable_journals(folder() / "none").empty());
@@ -219,21 +232,22 @@ class JournalTest : public QObject {
   void recoveredDocument_goesOnWithItsHistory() {
     std::vector<AnnotationDocument> states;
     RecoveredAnnotation found = read_journal(make_journal(4, 60, states));
-    const AnnotationJournal journal(folder(), found.owner, found.document);
+    Journaled journal(folder(), std::move(found.document), found.owner);
+    AnnotationDocument& document = journal.document();
 
-    while (found.document.history().next_undo()) found.document.undo();
+    while (document.history().next_undo()) document.undo();
 
-    QVERIFY(found.document.labels().labels().empty());
-    QVERIFY(found.document.scribbles().painted_views().empty());
-    QVERIFY(same(read_journal(journal.path()).document, found.document));
+    QVERIFY(document.labels().labels().empty());
+    QVERIFY(document.scribbles().painted_views().empty());
+    QVERIFY(same(read_journal(journal.journal_path()).document, document));
   }
 
   void folderThatCannotBeMade_isReported() {
     write(folder() / "file", {1}, 1);
-    AnnotationDocument document(kGrid, kHeight, kWidth);
+    Annotation annotation(new_document(), kOwner, folder() / "file" / "x");
 
-    QVERIFY_THROWS_EXCEPTION(IoError, AnnotationJournal(folder() / "file" / "x", kOwner, document));
-    document.add_label();  // nothing observes it
+    QVERIFY_THROWS_EXCEPTION(IoError, annotation.keep_journal());
+    annotation.document().add_label();  // nothing observes it
   }
 
   void killedProgram_losesAtMostTheStepInProgress() {
