@@ -9584,6 +9584,10 @@ s</translation>
         <source>%1 · %2 light fields</source>
         <translation>%1 · %2 Lichtfelder</translation>
     </message>
+    <message>
+        <source> (%1 of %2 runs)</source>
+        <translation> (%1 von %2 Läufen)</translation>
+    </message>
 </context>
 <context>
     <name>episcope::SweepRuns</name>

@@ -172,10 +172,11 @@ class SidePanelsTest : public QObject {
     QTest::addColumn<double>("seconds");
     QTest::addColumn<QString>("text");
     QTest::newRow("too early") << 0.001 << 10.0 << "";
+    QTest::newRow("too soon") << 0.11 << 0.6 << "";
     QTest::newRow("seconds") << 0.25 << 4.0 << "about 12 s left";
     QTest::newRow("minutes") << 0.1 << 60.0 << "about 9 min left";
     QTest::newRow("hours") << 0.1 << 3600.0 << "about 9 h 0 min left";
-    QTest::newRow("nearly") << 0.9 << 2.0 << "less than 1 s left";
+    QTest::newRow("nearly") << 0.9 << 4.0 << "less than 1 s left";
     QTest::newRow("done") << 1.0 << 2.0 << "";
   }
 
@@ -239,7 +240,7 @@ class SidePanelsTest : public QObject {
     bar.setReading(PixelReading{{1, 2}, "77", Qt::gray, true, -0.0004, {{"EPI_S", -0.0006}}});
 
     QCOMPARE(bar.text(),
-             QString::fromUtf8("x 2 y 1 · grey 77 · ground truth 0.000 · EPI_S −0.001 (+0.000)"));
+             QString::fromUtf8("x 2 y 1 · grey 77 · ground truth 0.000 · EPI_S −0.001 (0.000)"));
   }
 
   void info_givesEveryFactOneLine() {

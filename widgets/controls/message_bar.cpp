@@ -148,7 +148,7 @@ int percent_done(double fraction) {
 
 QString time_left_text(double fraction, double seconds) {
   constexpr double kLeastFraction = 0.02;  // Before, one would guess wildly.
-  constexpr double kLeastSeconds = 0.5;
+  constexpr double kLeastSeconds = 3;
   if (fraction < kLeastFraction || fraction >= 1 || seconds < kLeastSeconds) return {};
   const double left = seconds * (1 - fraction) / fraction;
   if (left < 1) return JobPanel::tr("less than 1 s left");

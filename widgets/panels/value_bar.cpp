@@ -21,7 +21,7 @@ constexpr int kSwatch = 12;
 
 QString signed_number(double value) {
   const QString text = number_text(value);
-  return text.front().isDigit() ? '+' + text : text;
+  return text.toDouble() > 0 ? '+' + text : text;
 }
 
 QString with_error(double disparity_px, std::optional<double> truth_px) {

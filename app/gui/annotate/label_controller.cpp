@@ -30,6 +30,28 @@ constexpr int kLabelKeys = 9;
 
 }  // namespace
 
+namespace {
+
+/// The label that a step back or forward is about: one that it brings back, else the only one that
+/// it paints; 0 = none.
+int label_of_step(const Edit& edit, bool is_undo) {
+  if (edit.labels) {
+    const LabelSet& now = is_undo ? edit.labels->before : edit.labels->after;
+    const LabelSet& former = is_undo ? edit.labels->after : edit.labels->before;
+    for (const LabelInfo& label : now.labels()) {
+      if (!former.find(label.id)) return label.id;
+    }
+  }
+  std::set<int> painted;
+  for (const ViewEdit& view : edit.views) {
+    for (const LabelRun& run : view.runs) painted.insert(is_undo ? run.before : run.after);
+  }
+  painted.erase(0);
+  return painted.size() == 1 ? *painted.begin() : 0;
+}
+
+}  // namespace
+
 LabelController::LabelController(const Workbench& bench, LabelPalette* palette)
     : QObject(&bench.owner),
       bench_(bench),
@@ -50,6 +72,11 @@ LabelController::LabelController(const Workbench& bench, LabelPalette* palette)
   connect(&document_, &DocumentController::changed, this, [this](const DocumentChange& change) {
     if (change.has_new_labels) show();
   });
+  connect(&document_, &DocumentController::steppedBack, this,
+          [this](const DocumentChange&, const Edit& edit, bool is_undo) {
+            const int label = label_of_step(edit, is_undo);
+            if (label != 0) labels_.choose(label);
+          });
   connect(&bench.viewer_area, &ViewerArea::previewChanged, this, &LabelController::showHint);
   show();
 }

@@ -192,8 +192,12 @@ void MetricController::addPixels(std::vector<MetricColumn>& columns) const {
 QStringList MetricController::provenanceOf(const EstimateEntry& entry) const {
   const Estimate& estimate = *entry.estimate;
   QStringList parameters;
-  for (const auto& [key, value] : changed_parameters(estimate.method, estimate.parameters)) {
+  const ParameterSet changed = changed_parameters(estimate.method, estimate.parameters);
+  for (const auto& [key, value] : changed) {
     parameters << QString::fromStdString(key + "=" + to_text(value));
+  }
+  if (estimate.range.length() > 0 && !find_value(changed, "range")) {
+    parameters << "searched=" + QString::fromStdString(to_text(IntervalOrAuto(estimate.range)));
   }
   return {region_.name(),
           QString::fromStdString(session_.light_field()->info().name),

@@ -603,6 +603,17 @@ std::optional<PlotPlace> place_in(const SweepChart& chart, SweepPlace point) {
   return mean;
 }
 
+/// " (10 of 20 runs)" of a sweep that has not been finished; else empty.
+QString unfinished_text(const Sweep& sweep) {
+  const auto& parameters = find_estimator(sweep.base.method).parameters;
+  const auto described = described_under(parameters, sweep.base.parameters);
+  const std::size_t planned =
+      sweep_points(described, sweep.base.parameters, sweep.swept).size() * sweep.scenes.size();
+  std::size_t done = 0;
+  for (const SweepScene& scene : sweep.scenes) done += scene.points.size();
+  return done < planned ? SweepPlotText::tr(" (%1 of %2 runs)").arg(done).arg(planned) : QString();
+}
+
 QString title_of(const Sweep& sweep) {
   const Estimator& estimator = find_estimator(sweep.base.method);
   QStringList parts{QString::fromStdString(estimator.info.name)};
@@ -611,10 +622,12 @@ QString title_of(const Sweep& sweep) {
   }
   const QString what = parts.join(", ");
   if (sweep.scenes.size() > 1)
-    return SweepPlotText::tr("%1 · %2 light fields").arg(what).arg(sweep.scenes.size());
+    return SweepPlotText::tr("%1 · %2 light fields").arg(what).arg(sweep.scenes.size()) +
+           unfinished_text(sweep);
   return sweep.scenes.empty()
              ? what
-             : QString("%1 · %2").arg(what, QString::fromStdString(sweep.scenes.front().name));
+             : QString("%1 · %2").arg(what, QString::fromStdString(sweep.scenes.front().name)) +
+                   unfinished_text(sweep);
 }
 
 std::string name_of(const Sweep& sweep, const SweepPoint& point) {

@@ -68,6 +68,7 @@ class LabelToolsTest : public QObject {
   void numberOfAnotherLabel_isRefused();
   void label_isMovedInTheList();
   void undoOfALockedLabel_isDoneAndSaid();
+  void redoneLabel_isChosenAgain();
   void hiddenLabel_isNeitherDrawnNorPaintedOver();
   void hiddenLabel_isShownAgainOncePainted();
   void onlyOne_hidesAllOthers_andShowsThemAgain();
@@ -253,6 +254,30 @@ void LabelToolsTest::undoOfALockedLabel_isDoneAndSaid() {
   f.key(Qt::Key_Escape);
   f.trigger("annotate.undo");
   QVERIFY2(!f.window.findChild<MessageBar*>("messageBar")->isVisible(), qPrintable(f.message()));
+}
+
+// The next stroke is of the label that the step brought back.
+void LabelToolsTest::redoneLabel_isChosenAgain() {
+  Labels f;
+  f.drag({40, 20}, {40, 60});
+  f.trigger("annotate.add_label");
+  f.key(Qt::Key_Escape);
+  f.drag({60, 20}, {60, 60});
+  QCOMPARE(f.labelAt({60, 40}), 2);
+  const LabelChoice& labels = f.window.bench().labels;
+
+  f.trigger("annotate.undo");
+  f.trigger("annotate.undo");
+  QCOMPARE(labels.current(), 1);
+  f.trigger("annotate.redo");
+  QCOMPARE(labels.current(), 2);
+  f.trigger("annotate.redo");
+  QCOMPARE(labels.current(), 2);
+
+  f.key(Qt::Key_1);
+  f.trigger("annotate.undo");
+  f.trigger("annotate.redo");
+  QCOMPARE(labels.current(), 2);
 }
 
 void LabelToolsTest::hiddenLabel_isNeitherDrawnNorPaintedOver() {

@@ -228,6 +228,10 @@ void SweepWindowTest::cancelled_keepsThePointsThatAreThere() {
   f.click("sweep.cancel");
   QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().jobs.count(), 0, kPatience);
   QVERIFY(count() >= 2 && count() < 50);
+  const QString title = f.window.findChild<QComboBox*>("sweep.list")->currentText();
+  QVERIFY2(title.endsWith(QString("(%1 of 51 runs)").arg(count())) ||
+               title.endsWith(QString("(%1 of 50 runs)").arg(count())),
+           qPrintable(title));
   QVERIFY(f.button("sweep.run").isEnabled());
   f.clickPoint(f.upper(), {0, 1});
   QVERIFY(f.session().shown()->name.find("inner_scale") != std::string::npos);
