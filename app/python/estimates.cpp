@@ -198,9 +198,9 @@ DisparityField field_from(const py::object& map, GridShape grid, const std::stri
 /// The views that maps cover; 1×1 also for what are no maps.
 GridShape grid_of_maps(const py::object& maps) {
   const auto shape = py::module_::import("numpy").attr("shape")(maps);
-  if (py::len(shape) != 4) return {1, 1};
   const auto lengths = py::cast<std::vector<int>>(shape);
-  return {lengths[0], lengths[1]};
+  const bool has_channel = lengths.size() == 5 && lengths.back() == 1;
+  return lengths.size() == 4 || has_channel ? GridShape{lengths[0], lengths[1]} : GridShape{1, 1};
 }
 
 /// The view that is wanted, else the only one of a result, else the center.

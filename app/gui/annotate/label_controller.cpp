@@ -33,7 +33,7 @@ constexpr int kLabelKeys = 9;
 namespace {
 
 /// The label that a step back or forward is about: one that it brings back, else the only one that
-/// it paints; 0 = none.
+/// is painted again, or no longer erased; 0 = none.
 int label_of_step(const Edit& edit, bool is_undo) {
   if (edit.labels) {
     const LabelSet& now = is_undo ? edit.labels->before : edit.labels->after;
@@ -44,7 +44,9 @@ int label_of_step(const Edit& edit, bool is_undo) {
   }
   std::set<int> painted;
   for (const ViewEdit& view : edit.views) {
-    for (const LabelRun& run : view.runs) painted.insert(is_undo ? run.before : run.after);
+    for (const LabelRun& run : view.runs) {
+      if (!is_undo || run.after == 0) painted.insert(is_undo ? run.before : run.after);
+    }
   }
   painted.erase(0);
   return painted.size() == 1 ? *painted.begin() : 0;

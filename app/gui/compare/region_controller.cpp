@@ -115,6 +115,9 @@ PixelRect RegionController::clipped(PixelRect rectangle) const {
 }
 
 void RegionController::beginRectangle() {
+  if (const LightFieldPtr light_field = bench_.session.light_field()) {
+    bench_.session.set_view(light_field->center());  // which is judged
+  }
   bench_.viewer_area.requestSingleView();
   ViewCanvas* canvas = bench_.viewer_area.canvas();
   if (canvas->tool() != tool_) former_tool_ = canvas->tool();

@@ -62,7 +62,8 @@ ImageHeader bmp_header(FileBytes& file) {
           has_palette ? 0 : 3, SampleType::UInt8};
 }
 
-ImageHeader pnm_header(FileBytes& file, int channels) {
+/// Of plain ones, libraries bring 8 bits to their full range.
+ImageHeader pnm_header(FileBytes& file, int channels, bool is_plain) {
   std::istream& in = file.at(2);
   std::array<std::uint32_t, 3> numbers{};
   for (std::uint32_t& number : numbers) {
@@ -71,7 +72,7 @@ ImageHeader pnm_header(FileBytes& file, int channels) {
   }
   if (!in) return {};
   const bool is_word = numbers[2] > 255;
-  const bool is_full = numbers[2] == 255 || numbers[2] >= 65535;
+  const bool is_full = numbers[2] == 255 || numbers[2] >= 65535 || (is_plain && !is_word);
   return {length(numbers[1]), length(numbers[0]), channels, of_bits(is_word ? 16 : 8),
           is_full ? 0 : numbers[2]};
 }
@@ -107,9 +108,9 @@ std::optional<ImageHeader> stated_image_header(const std::filesystem::path& path
   } else if (file.begins_with("BM")) {
     header = bmp_header(file);
   } else if (file.begins_with("P5") || file.begins_with("P2")) {
-    header = pnm_header(file, 1);
+    header = pnm_header(file, 1, file.begins_with("P2"));
   } else if (file.begins_with("P6") || file.begins_with("P3")) {
-    header = pnm_header(file, 3);
+    header = pnm_header(file, 3, file.begins_with("P3"));
   } else if (file.begins_with("II") || file.begins_with("MM")) {
     header = tiff_header(path);
   }

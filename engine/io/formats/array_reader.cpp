@@ -42,6 +42,7 @@ struct OtherArrays {
   std::function<bool(const ArrayEntry&)> owns;  ///< Arrays that it alone reads.
   /// Adds them to the parts, which hold samples and maps in the order of the file.
   std::function<void(SceneParts&, ConventionReport&, const Progress&)> add;
+  bool is_in_memory = false;  ///< No file is there, and nothing beside it.
 };
 
 constexpr double kVideoBlack = 16.0 / 255;
@@ -341,7 +342,7 @@ Scene read_single(const ArrayFile& file, const char* reader, const OpenOptions& 
   parts.expected.is_truth_sign_assumed = maps.is_sign_assumed;
   parts.expected.reason = finding_text("order.of_arrays");
   if (more.add) more.add(parts, scene.convention, progress.part(0.75, 0.8));
-  if (parts.truth.field.empty() && !fs::is_directory(file.path())) {
+  if (parts.truth.field.empty() && !more.is_in_memory && !fs::is_directory(file.path())) {
     FileUsage account(file.path());
     scene.scribbles.labels = add_maps_named_after(
         file.path(), options, parts, {account, scene.convention}, progress.part(0.75, 0.8));
@@ -620,7 +621,7 @@ fs::path find_numpy(const fs::path& path, const OpenOptions&) {
 }  // namespace
 
 Scene read_arrays(const ArrayFile& file, const OpenOptions& options, const Progress& progress) {
-  return read_array_scene(file, kNumpyReader, options, progress);
+  return read_array_scene(file, kNumpyReader, options, progress, {.is_in_memory = true});
 }
 
 Reader numpy_reader() {
@@ -631,7 +632,7 @@ Reader numpy_reader() {
       .find = find_numpy,
       .read =
           [](const fs::path& path, const OpenOptions& options, const Progress& progress) {
-            return read_arrays(NumpyFile(path), options, progress);
+            return read_array_scene(NumpyFile(path), kNumpyReader, options, progress);
           },
       .probe = [](const fs::path& path,
                   const OpenOptions& options) { return probe_arrays(NumpyFile(path), options); }};

@@ -21,7 +21,7 @@ void arrange_list(const std::filesystem::path& path, const OpenOptions& options,
                   std::string& reason, const Progress& progress,
                   std::optional<GridShape> stored = std::nullopt);
 
-/// The light field of arrays that need not come from a file, read as `numpy_reader` reads `.npy`.
+/// The light field of arrays in memory, read as `numpy_reader` reads `.npy`.
 /// Throws IoError, InvalidInput for options that do not fit, Cancelled.
 [[nodiscard]] Scene read_arrays(const ArrayFile& file, const OpenOptions& options,
                                 const Progress& progress);

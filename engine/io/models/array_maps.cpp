@@ -77,9 +77,9 @@ std::optional<ArrayLayout> map_layout(const ArrayEntry& entry, const ArrayLayout
   return std::nullopt;
 }
 
-/// Maps of all views in a list, of a light field that is none.
+/// Maps of all views in a list, of a light field that is none, or a column.
 bool is_list_of_maps(const ArrayLayout& maps, GridShape grid) {
-  return maps.has('n') && std::min(grid.v, grid.u) > 1;
+  return maps.has('n') && !(maps.grid() == grid);
 }
 
 /// A map of one view belongs to the center, and those of a list to the views row by row.

@@ -133,3 +133,9 @@ def test_masked_samples_do_not_count(scene):
     assert any("NaN" in note for note in opened.notes)
     nothing = numpy.ma.masked_array(scene.views, False)
     assert numpy.array_equal(episcope.LightField(nothing).views, scene.views)
+
+
+def test_array_takes_nothing_from_the_current_folder(scene, tmp_path, monkeypatch):
+    numpy.save(tmp_path / "array_disparity.npy", scene.truth[2, 2])
+    monkeypatch.chdir(tmp_path)
+    assert episcope.LightField(scene.views).truth is None

@@ -151,6 +151,8 @@ def test_masked_values_are_missing(scene, result):
 
 def test_maps_may_have_an_axis_of_one_channel(scene, result):
     assert episcope.score(result.disparity[..., None], scene) == episcope.score(result.disparity, scene)
+    with_truth = episcope.score(result, scene.truth[..., None])
+    assert with_truth == episcope.score(result, scene.truth)
     assert episcope.score(result.disparity[2, 2, ..., None], scene) == episcope.score(result.disparity[2, 2], scene)
 
 

@@ -57,6 +57,15 @@ std::vector<MapPlace> places_inside(const fs::path& outer, const fs::path& but) 
   return places;
 }
 
+/// False also where the folder around cannot be listed, as those of users may be.
+bool is_only_grid_of(const fs::path& around, const fs::path& folder) {
+  try {
+    return only_grid_inside(around) == folder;
+  } catch (const fs::filesystem_error&) {
+    return false;
+  }
+}
+
 }  // namespace
 
 std::vector<MapPlace> map_places(const fs::path& folder) {
@@ -68,7 +77,7 @@ std::vector<MapPlace> map_places(const fs::path& folder) {
   std::error_code error;
   const fs::path whole = fs::absolute(folder).lexically_normal();
   const fs::path clean = whole.has_filename() ? whole : whole.parent_path();
-  const bool is_only_inside = only_grid_inside(clean.parent_path()) == clean;
+  const bool is_only_inside = is_only_grid_of(clean.parent_path(), clean);
   if (has_inner_name(clean) || is_only_inside) {
     std::vector<MapPlace> around = places_inside(clean.parent_path(), folder);
     around.insert(around.begin(), {clean.parent_path(), std::nullopt});

@@ -278,6 +278,10 @@ void LabelToolsTest::redoneLabel_isChosenAgain() {
   f.trigger("annotate.undo");
   f.trigger("annotate.redo");
   QCOMPARE(labels.current(), 2);
+
+  f.drag({40, 20}, {40, 60});  // over 1
+  f.trigger("annotate.undo");
+  QCOMPARE(labels.current(), 2);
 }
 
 void LabelToolsTest::hiddenLabel_isNeitherDrawnNorPaintedOver() {

@@ -105,6 +105,8 @@ void RegionTest::rectangle_isDrawnAndJudged() {
   QVERIFY(!f.canvas()->tool());  // the mouse browses again
   f.key(Qt::Key_Right);          // another view: the outline is not of it
   QTRY_VERIFY(f.canvas()->region().empty());
+  f.click("button.compare.rectangle");
+  QCOMPARE(f.session().view(), (ViewIndex{4, 4}));  // the one that is judged
 }
 
 void RegionTest::escape_leavesTheRectangle() {

@@ -39,6 +39,16 @@ class PictureLevelsTest : public QObject {
     QCOMPARE(samples_of<std::uint16_t>(words), (std::vector<int>{65535, 0}));
   }
 
+  void whiteOfPlainPnm_isWhite() {
+    const fs::path bytes = written("plain.pgm", "P2 3 1 100\n0 50 100\n");
+    const fs::path words = written("plain_words.pgm", "P2 2 1 1000\n1000 0\n");
+    const std::vector<int> levels = samples_of<std::uint8_t>(bytes);
+    QCOMPARE(levels.front(), 0);
+    QVERIFY(levels[1] == 127 || levels[1] == 128);
+    QCOMPARE(levels.back(), 255);
+    QCOMPARE(samples_of<std::uint16_t>(words), (std::vector<int>{65535, 0}));
+  }
+
   void labelsOfPnm_keepTheirNumbers() {
     const fs::path labels = written("labels.pgm", "P5 3 1 5\n" + std::string{'\0', 3, 5});
     const Image<std::int32_t> numbers = io::decode_numbers(labels);
