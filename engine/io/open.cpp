@@ -155,7 +155,7 @@ bool reads_as_truth(const fs::path& map, const fs::path& input) {
   const bool may_be_only = is_picture || suffix_of(input) == ".npy";
   const SceneFiles own({scene}, light_fields_beside(input), may_be_only);
   const fs::path folder = input.has_parent_path() ? input.parent_path() : fs::path(".");
-  return is_found_as_truth(map, folder, [&](const fs::path& file) { return own.contains(file); });
+  return is_found_as_truth(map, folder, own);
 }
 
 }  // namespace episcope::io

@@ -291,16 +291,14 @@ void add_beside(const fs::path& path, const OpenOptions& options, SceneParts& pa
   FileUsage account(is_only_mosaic(path) ? folder : path);
   account.use(path, "mosaics");
   const ViewFiles views{grid_of(parts.samples), {}};
-  const SceneFiles own = maps_of(path);
-  SidecarMaps beside =
-      read_sidecar_maps({.files = views,
-                         .folder = folder,
-                         .samples = parts.samples,
-                         .camera = parts.info.camera,
-                         .map_views = options.map_views(),
-                         .needs_truth = options.needs_truth,
-                         .is_own = [&](const fs::path& file) { return own.contains(file); }},
-                        {account, scene.convention}, progress);
+  SidecarMaps beside = read_sidecar_maps({.files = views,
+                                          .folder = folder,
+                                          .samples = parts.samples,
+                                          .camera = parts.info.camera,
+                                          .map_views = options.map_views(),
+                                          .needs_truth = options.needs_truth,
+                                          .own = maps_of(path)},
+                                         {account, scene.convention}, progress);
   parts.truth = std::move(beside.truth);
   parts.expected.is_truth_sign_assumed = beside.is_sign_assumed;
   parts.info.camera = beside.camera;

@@ -324,6 +324,7 @@ std::string last_name(const std::string& name) {
 }
 
 std::string telling_name(const ArrayEntry& entry) {
+  if (!entry.told.empty()) return entry.told;
   return entry.is_of_views() ? entry.name : last_name(entry.name);
 }
 

@@ -23,6 +23,7 @@ struct ArrayEntry {
   /// Names of the arrays of which this one consists (see ArrayFile), and
   std::vector<std::string> parts{};
   std::string leading{};  ///< what their places mean, "c", "n", "vu", as letters of axes.
+  std::string told{};     ///< What its name tells where that is not its last part; else empty.
   std::string warning{};  ///< What is missing among them, and left out; empty for all.
 
   /// Whether its parts are views, or maps of views, even if some are missing.

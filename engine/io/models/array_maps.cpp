@@ -33,7 +33,8 @@ std::optional<MapKind> kind_of(const ArrayEntry& entry) {
 /// By its own name, else by those of the groups that it is in.
 MapClaim claim_of(const ArrayEntry& entry) {
   const MapClaim own = map_claim(telling_name(entry));
-  return own == MapClaim::None ? map_claim(entry.name) : own;
+  if (own != MapClaim::None) return own;
+  return group_claim(entry.name.substr(0, entry.name.rfind('/') + 1));
 }
 
 enum class Pixels { AsViews, Exchanged };
@@ -273,7 +274,7 @@ class MapReader {
     Image<std::uint8_t> region(numbers.height(), numbers.width());
     std::transform(numbers.data(), numbers.data() + numbers.size(), region.begin(),
                    [](std::int32_t number) { return static_cast<std::uint8_t>(number != 0); });
-    maps_.truth.regions.insert_or_assign(region_name(last_name(entry.name)), std::move(region));
+    maps_.truth.regions.insert_or_assign(region_name(telling_name(entry)), std::move(region));
     return kind;
   }
 

@@ -99,7 +99,11 @@ NumpyFile::NumpyFile(const fs::path& path)
     return;
   }
   add_source({path.stem().string(), path, {}}, true);
-  for (const fs::path& map : maps_beside(path)) add_source({map.stem().string(), map, {}}, false);
+  const std::string scene = lower_case(path.stem().string());
+  for (const fs::path& map : maps_beside(path)) {
+    const std::string name = map.stem().string();
+    add_source({name, map, {}, name_beside(name, {scene})}, false);
+  }
 }
 
 void NumpyFile::add_archive(const fs::path& path) {
@@ -115,6 +119,7 @@ void NumpyFile::add_archive(const fs::path& path) {
 
 void NumpyFile::add_source(Source source, bool is_needed) {
   ArrayEntry entry{source.name, {}, {}, {}, {}, {}};
+  entry.told = source.told;
   try {
     const NpyHeader header = source.zipped ? read_zipped_header(source.path, *source.zipped)
                                            : NpyFile(source.path).header();

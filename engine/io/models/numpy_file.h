@@ -24,6 +24,7 @@ class NumpyFile : public ArrayFile {
     std::string name;
     std::filesystem::path path;
     std::optional<ZipEntry> zipped;
+    std::string told{};  ///< As in ArrayEntry.
   };
   void add_source(Source source, bool is_needed);
   void add_archive(const std::filesystem::path& path);

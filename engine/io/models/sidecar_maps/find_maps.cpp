@@ -258,12 +258,24 @@ void match(const std::vector<fs::path>& files, const ViewKeys& views, MapSet& se
   drop_doubles(set);
 }
 
+/// What the name of a file says beside those of its view and scene.
+std::string said_by(const fs::path& file, const MapPlace& place) {
+  return name_beside(file.stem().string(), place.owners);
+}
+
+/// By its own name, else by the name of its folder.
+std::optional<MapKind> named_kind(const fs::path& file, const MapPlace& place) {
+  const std::string said = said_by(file, place);
+  const bool says_more = std::ranges::any_of(said, is_letter);
+  const auto kind = map_kind(says_more ? said : file.stem().string());
+  return kind ? kind : place.kind;
+}
+
 /// By its own name, else by the name of its folder. `is_of_scene`: the file is called after the
 /// views.
 std::optional<MapKind> kind_of(const fs::path& file, const MapPlace& place, bool is_of_scene) {
   const std::string stem = file.stem().string();
-  std::optional<MapKind> kind = map_kind(stem);
-  if (!kind) kind = place.kind;
+  std::optional<MapKind> kind = named_kind(file, place);
   const bool is_of_truth = place.claim == MapClaim::True && is_of_scene;
   const bool is_truth = is_bare_truth_name(stem) || is_of_truth;
   if (!kind && is_truth && can_hold_values(file)) kind = MapKind::Disparity;
@@ -272,10 +284,21 @@ std::optional<MapKind> kind_of(const fs::path& file, const MapPlace& place, bool
   return may_be_text && is_text_map(file) ? kind : std::nullopt;
 }
 
-/// By its own name, else by the name of its folder.
-MapClaim claim_of(const fs::path& file, const MapPlace& place) {
-  const MapClaim own = map_claim(file.stem().string());
+/// By its own name, else by the name of its folder. Masks are not asked for the methods they name.
+MapClaim claim_of(const fs::path& file, MapKind kind, const MapPlace& place) {
+  const MapClaim own = is_mask(kind) ? MapClaim::None : map_claim(said_by(file, place));
   return own == MapClaim::None ? place.claim : own;
+}
+
+/// What a mask marks, by its own name, else by those of its folders; empty for other maps.
+std::string region_of(const fs::path& file, MapKind kind, const MapPlace& place) {
+  if (kind != MapKind::Region) return {};
+  std::string region = region_name(said_by(file, place));
+  for (fs::path folder = file.parent_path(); region.empty() && folder.has_relative_path();
+       folder = folder.parent_path()) {
+    region = region_name(folder.filename().string());
+  }
+  return region;
 }
 
 /// The numbers behind words that count frames, times or exposures.
@@ -290,6 +313,22 @@ std::map<std::string, long> frames_in(const fs::path& file) {
   return frames;
 }
 
+/// Those that are the same in the names of all views: else they count the views.
+std::map<std::string, long> frames_of(const ViewFiles& views) {
+  std::map<std::string, long> common;
+  if (!views.files.empty()) common = frames_in(views.files.front());
+  const auto keep_those_of = [&](const fs::path& file) {
+    const auto own = frames_in(file);
+    std::erase_if(common, [&](const auto& one) {
+      const auto same = own.find(one.first);
+      return same == own.end() || same->second != one.second;
+    });
+  };
+  std::ranges::for_each(views.files, keep_those_of);
+  std::ranges::for_each(views.left_out, keep_those_of);
+  return common;
+}
+
 /// Whether the names of views and of a map have numbers of different frames.
 bool is_of_other_frame(const fs::path& map, const std::map<std::string, long>& frames) {
   if (frames.empty()) return false;
@@ -297,6 +336,27 @@ bool is_of_other_frame(const fs::path& map, const std::map<std::string, long>& f
     const auto same = frames.find(own.first);
     return same != frames.end() && same->second != own.second;
   });
+}
+
+/// With the names of the views, and of the light field.
+std::vector<MapPlace> places_for(const ViewFiles& views, const fs::path& folder,
+                                 const std::optional<SceneFiles>& own) {
+  std::set<std::string> names;
+  const auto add = [&](const fs::path& view) {
+    const std::string name = numbered_name(view.stem().string()).text;
+    if (std::ranges::any_of(name, is_letter)) names.insert(name);
+  };
+  std::ranges::for_each(views.files, add);
+  std::ranges::for_each(views.left_out, add);
+  if (own) names.insert(own->scenes().begin(), own->scenes().end());
+  std::vector<MapPlace> places = map_places(folder);
+  for (MapPlace& place : places) {
+    place.owners.assign(names.begin(), names.end());
+    if (!place.owner) continue;
+    const std::vector<std::string>& scenes = place.owner->scenes();
+    place.owners.insert(place.owners.end(), scenes.begin(), scenes.end());
+  }
+  return places;
 }
 
 /// What the name of a map adds to that of its view: "*_depth.npy" beside "03.png", the whole name
@@ -350,17 +410,18 @@ class MapsOfFolders {
     for (const fs::path& file : files) {
       const auto kind = taken_.contains(file) ? std::nullopt : kind_of(file, place, false);
       if (!kind) continue;
-      const MapClaim claim = claim_of(file, place);
+      const MapClaim claim = claim_of(file, *kind, place);
       for (const View& view : views) {
         const std::string role = role_of(file, view.file, views.size() == 1);
         if (role.empty()) continue;
         if (claim == MapClaim::Computed) {
-          found_.computed.push_back(file);
+          found_.computed.push_back({file, *kind});
           break;
         }
         MapSet& set = sets_[{*kind, place.prefix + "*/" + role}];
         set.kind = *kind;
         set.claim = claim;
+        set.region = region_of(file, *kind, place);
         set.pattern = place.prefix + "*/" + role;
         set.entries.push_back({view.number, file});
       }
@@ -387,26 +448,26 @@ fs::path MapSet::file_of(int view) const {
   return found == entries.end() ? fs::path() : found->file;
 }
 
-FoundMapSets find_maps(const ViewFiles& views, const fs::path& folder, const IsOwnFile& is_own) {
+FoundMapSets find_maps(const ViewFiles& views, const fs::path& folder,
+                       const std::optional<SceneFiles>& own) {
   std::set<fs::path> taken(views.files.begin(), views.files.end());
   taken.insert(views.left_out.begin(), views.left_out.end());
   const ViewKeys keys = keys_of_views(views);
   FoundMapSets found;
-  const std::vector<MapPlace> places = map_places(folder);
+  const std::vector<MapPlace> places = places_for(views, folder, own);
   MapsOfFolders(views, folder, taken, found).find(places);
-  const auto frames =
-      views.files.empty() ? std::map<std::string, long>() : frames_in(views.files.front());
+  const auto frames = frames_of(views);
   for (const MapPlace& place : places) {
     std::map<std::pair<MapKind, std::string>, std::vector<fs::path>> groups;
     for (const fs::path& file : list_files(place.folder)) {
-      if (taken.contains(file) || (is_own && !is_own(file))) continue;
+      if (taken.contains(file) || (own && !own->contains(file))) continue;
       if (!place.may_hold(file)) continue;
-      const bool is_of_scene = is_own || !place.scene.empty();
+      const bool is_of_scene = own || !place.scene.empty();
       const auto kind =
           is_of_other_frame(file, frames) ? std::nullopt : kind_of(file, place, is_of_scene);
       if (!kind) continue;
-      if (claim_of(file, place) == MapClaim::Computed) {
-        found.computed.push_back(file);
+      if (claim_of(file, *kind, place) == MapClaim::Computed) {
+        found.computed.push_back({file, *kind});
         continue;
       }
       const std::string pattern =
@@ -415,7 +476,8 @@ FoundMapSets find_maps(const ViewFiles& views, const fs::path& folder, const IsO
     }
     for (const auto& [key, files] : groups) {
       MapSet set{.kind = key.first, .pattern = key.second, .entries = {}, .strays = {}};
-      set.claim = claim_of(files.front(), place);
+      set.claim = claim_of(files.front(), key.first, place);
+      set.region = region_of(files.front(), key.first, place);
       match(files, keys, set);
       found.sets.push_back(std::move(set));
     }
@@ -426,17 +488,17 @@ FoundMapSets find_maps(const ViewFiles& views, const fs::path& folder, const IsO
   return found;
 }
 
-bool is_found_as_truth(const fs::path& file, const fs::path& folder, const IsOwnFile& is_own) {
+bool is_found_as_truth(const fs::path& file, const fs::path& folder,
+                       const std::optional<SceneFiles>& own) {
   const fs::path in = fs::absolute(file).lexically_normal();
-  if (!can_hold_values(in) || (is_own && !is_own(in))) return false;
-  return std::ranges::any_of(map_places(folder), [&](const MapPlace& place) {
+  if (!can_hold_values(in) || (own && !own->contains(in))) return false;
+  return std::ranges::any_of(places_for(ViewFiles(), folder, own), [&](const MapPlace& place) {
     std::error_code error;
     if (!fs::equivalent(place.folder, in.parent_path(), error) || !place.may_hold(in)) return false;
-    const std::string stem = in.stem().string();
-    const auto kind = map_kind(stem) ? map_kind(stem) : place.kind;
-    const bool is_value =
-        kind == MapKind::Disparity || kind == MapKind::Depth || (!kind && is_bare_truth_name(stem));
-    return is_value && claim_of(in, place) != MapClaim::Computed;
+    auto kind = named_kind(in, place);
+    if (!kind && is_bare_truth_name(in.stem().string())) kind = MapKind::Disparity;
+    const bool is_value = kind == MapKind::Disparity || kind == MapKind::Depth;
+    return is_value && claim_of(in, *kind, place) != MapClaim::Computed;
   });
 }
 

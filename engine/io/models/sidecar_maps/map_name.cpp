@@ -68,11 +68,6 @@ constexpr std::array<std::string_view, 6> kTruthWords{"gt",         "truth",    
                                                       "annotation", "annotations", "maps"};
 constexpr std::array<std::string_view, 8> kTrueWords{
     "gt", "true", "truth", "groundtruth", "gtdisp", "gtdepth", "annotation", "annotations"};
-/// Beside words of maps, of what they belong to, and single letters.
-constexpr std::array<std::string_view, 24> kPlainWords{
-    "map",   "maps",       "ground", "target", "lowres", "highres", "low",    "high",
-    "res",   "left",       "right",  "row",    "col",    "column",  "sai",    "light",
-    "field", "lightfield", "data",   "float",  "ids",    "id",      "object", "frame"};
 constexpr std::array<std::string_view, 5> kBareNames{"gt", "ground_truth", "groundtruth", "truth",
                                                      "target"};
 
@@ -101,6 +96,17 @@ std::string beside_mask(const std::string& name) {
   return {};
 }
 
+/// Where a part of a name ends that begins there; npos if another text does.
+std::size_t end_of_part(const std::string& part, const std::string& name, std::size_t at) {
+  for (const char c : part) {
+    const std::size_t end = end_of_digits(name, at);
+    const bool is_number = c == '#' && end > at;
+    if (!is_number && (at >= name.size() || lower_case(name[at]) != c)) return std::string::npos;
+    at = is_number ? end : at + 1;
+  }
+  return at;
+}
+
 }  // namespace
 
 const char* kind_text(MapKind kind) {
@@ -126,25 +132,38 @@ bool is_bare_truth_name(const std::string& name) {
   return std::ranges::find(kBareNames, lower_case(name)) != kBareNames.end();
 }
 
-bool names_other_scene(const std::string& name) {
-  if (!region_name(name).empty()) return false;
-  const auto is_known = [](const std::string& word) {
-    const std::vector<std::string> one{word};
-    return word.size() == 1 || has_one_of(one, kInvalidWords) || has_one_of(one, kValidWords) ||
-           has_one_of(one, kMaskWords) || has_one_of(one, kLabelWords) ||
-           has_one_of(one, kDisparityWords) || has_one_of(one, kDepthWords) ||
-           has_one_of(one, kMapOwners) || has_one_of(one, kResultWords) ||
-           has_one_of(one, kStepWords) || has_one_of(one, kTruthWords) ||
-           has_one_of(one, kTrueWords) || has_one_of(one, kPlainWords);
-  };
-  return !std::ranges::all_of(name_words(name), is_known);
-}
-
 MapClaim map_claim(const std::string& name) {
   const std::vector<std::string> words = name_words(name);
   if (has_one_of(words, kResultWords)) return MapClaim::Computed;
   if (has_one_of(words, kTrueWords)) return MapClaim::True;
   return has_one_of(words, kStepWords) ? MapClaim::Computed : MapClaim::None;
+}
+
+MapClaim group_claim(const std::string& name) {
+  const std::vector<std::string> words = name_words(name);
+  if (has_one_of(words, kResultWords)) return MapClaim::Computed;
+  return has_one_of(words, kTrueWords) ? MapClaim::True : MapClaim::None;
+}
+
+NamePart find_part(const std::string& name, const std::vector<std::string>& parts) {
+  const auto is_inside = [&](std::size_t i) {
+    return i < name.size() && (is_letter(name[i]) || is_digit(name[i]));
+  };
+  NamePart longest;
+  for (const std::string& part : parts) {
+    for (std::size_t begin = 0; begin < name.size(); ++begin) {
+      if (begin > 0 && is_inside(begin - 1)) continue;
+      const std::size_t end = end_of_part(part, name, begin);
+      if (end == std::string::npos || is_inside(end)) continue;
+      if (end - begin > longest.end - longest.begin) longest = {begin, end};
+    }
+  }
+  return longest;
+}
+
+std::string name_beside(const std::string& name, const std::vector<std::string>& owners) {
+  const NamePart owner = find_part(name, owners);
+  return name.substr(0, owner.begin) + name.substr(owner.end);
 }
 
 std::string region_name(const std::string& name) {

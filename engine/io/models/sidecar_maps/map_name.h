@@ -16,13 +16,14 @@ enum class MapKind { Disparity, Depth, Labels, Valid, Invalid, Region };
 /// "gtDepth_05", "label", "valid_mask". Empty for names without such a word.
 [[nodiscard]] std::optional<MapKind> map_kind(const std::string& name);
 
+/// Of valid or of invalid pixels, or of a region.
+[[nodiscard]] constexpr bool is_mask(MapKind kind) {
+  return kind == MapKind::Valid || kind == MapKind::Invalid || kind == MapKind::Region;
+}
+
 /// Whether a name is one of truth and says no more: "gt", "ground_truth", "truth", "target".
 /// Numbers of that name are disparity.
 [[nodiscard]] bool is_bare_truth_name(const std::string& name);
-
-/// Whether the name of a map has words that are neither of maps nor of what maps belong to:
-/// "cotton" of "cotton_labels".
-[[nodiscard]] bool names_other_scene(const std::string& name);
 
 /// What the name of a map says of its truth.
 enum class MapClaim {
@@ -31,6 +32,23 @@ enum class MapClaim {
   Computed  ///< "estimate", "error", "confidence"; or "raw", "epi" with no word of truth beside it.
 };
 [[nodiscard]] MapClaim map_claim(const std::string& name);
+
+/// What the name of a group of arrays says of the truth of those in it. Steps and methods ("raw",
+/// "net") say nothing there: they may be of the light field as well.
+[[nodiscard]] MapClaim group_claim(const std::string& name);
+
+/// Where a name holds another as whole words, from `begin` up to `end`; both 0 if it does not.
+struct NamePart {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+};
+/// The longest of `parts`, which are in lower case and have # for any number ("out_#_#").
+[[nodiscard]] NamePart find_part(const std::string& name, const std::vector<std::string>& parts);
+
+/// What the name of a map says beside that of what it belongs to: "_mask" of "out_03_04_mask" for
+/// "out_#_#".
+[[nodiscard]] std::string name_beside(const std::string& name,
+                                      const std::vector<std::string>& owners);
 
 /// "planes" for mask_planes, mask_planes_lowres, as the 2016 benchmark calls a region of the center
 /// view, and planes_mask. Empty for other names, and for masks that are of a map by their names:

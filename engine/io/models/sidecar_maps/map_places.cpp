@@ -22,8 +22,7 @@ std::vector<fs::path> map_folders_in(const fs::path& folder) {
     std::error_code ignored;
     // Links are not followed: they may lead around in circles.
     if (it->is_symlink(ignored) || !it->is_directory(ignored)) continue;
-    const std::string name = it->path().filename().string();
-    if (is_map_folder(name) && map_claim(name) != MapClaim::Computed) folders.push_back(it->path());
+    if (is_map_folder(it->path().filename().string())) folders.push_back(it->path());
   }
   std::ranges::sort(folders);
   return folders;
@@ -39,19 +38,26 @@ bool has_inner_name(const fs::path& folder) {
   return std::ranges::find(names, name) != names.end();
 }
 
+/// Of a folder: regions and masks may be called after a method.
+MapClaim claim_of(const std::string& name) {
+  const auto kind = map_kind(name);
+  return kind && is_mask(*kind) ? MapClaim::None : map_claim(name);
+}
+
 /// The folders of maps inside a folder, and those inside them.
 std::vector<MapPlace> places_inside(const fs::path& outer, const fs::path& but) {
   std::vector<MapPlace> places;
   for (const fs::path& inner : map_folders_in(outer)) {
     if (fs::equivalent(inner, but)) continue;
     const std::string name = inner.filename().string();
-    places.push_back({inner, map_kind(name), name + "/", map_claim(name)});
+    places.push_back({inner, map_kind(name), name + "/", claim_of(name)});
     const MapPlace whole = places.back();
     for (const fs::path& deep : map_folders_in(inner)) {
       const std::string own = deep.filename().string();
       const auto kind = map_kind(own);
+      const MapClaim claim = claim_of(own);
       places.push_back({deep, kind ? kind : whole.kind, whole.prefix + own + "/",
-                        std::min(whole.claim, map_claim(own))});
+                        claim == MapClaim::None ? whole.claim : claim});
     }
   }
   return places;
@@ -82,8 +88,8 @@ std::vector<MapPlace> map_places(const fs::path& folder) {
     std::vector<MapPlace> around = places_inside(clean.parent_path(), folder);
     around.insert(around.begin(), {clean.parent_path(), std::nullopt});
     if (!has_inner_name(clean)) {
-      const SceneFiles own({clean.filename().string(), clean.parent_path().filename().string()}, {},
-                           true);
+      const SceneFiles own({clean.filename().string(), clean.parent_path().filename().string()},
+                           light_fields_beside(clean), true);
       std::erase_if(around, [&](const MapPlace& place) {
         return !place.prefix.empty() &&
                !own.contains(place.prefix.substr(0, place.prefix.find('/')));

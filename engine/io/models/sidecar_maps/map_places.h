@@ -19,6 +19,7 @@ struct MapPlace {
   MapClaim claim = MapClaim::None;
   std::string scene = {};  ///< Files of this name alone belong to the views; empty = all.
   std::optional<SceneFiles> owner = {};  ///< Tells which of its files belong to the views.
+  std::vector<std::string> owners = {};  ///< Names of what maps belong to (`name_beside`).
 
   /// By its name alone.
   [[nodiscard]] bool may_hold(const std::filesystem::path& file) const {

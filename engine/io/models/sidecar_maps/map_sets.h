@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,8 +26,8 @@ struct SidecarViews {
   CameraGrid camera;  ///< Known fields only.
   MapViews map_views = MapViews::All;
   bool needs_truth = true;
-  bool is_shift_unknown = false;  ///< Views may be shifted against what `camera` says.
-  IsOwnFile is_own{};             ///< Which files may belong to the views; empty = all.
+  bool is_shift_unknown = false;    ///< Views may be shifted against what `camera` says.
+  std::optional<SceneFiles> own{};  ///< Which files may belong to the views; empty = all.
 
   [[nodiscard]] GridShape grid() const { return files.grid; }
   [[nodiscard]] int height() const;

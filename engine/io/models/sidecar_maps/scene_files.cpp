@@ -23,18 +23,8 @@ bool is_array_name(const fs::path& path) {
 
 /// Letters of the longest of these names that another holds as whole words.
 std::size_t likeness(const std::string& name, const std::vector<std::string>& scenes) {
-  const auto is_end = [&](std::size_t at) {
-    return at >= name.size() || !(is_letter(name[at]) || is_digit(name[at]));
-  };
-  std::size_t most = 0;
-  for (const std::string& scene : scenes) {
-    if (scene.empty()) continue;
-    for (auto at = name.find(scene); at != std::string::npos; at = name.find(scene, at + 1)) {
-      const bool is_word = (at == 0 || is_end(at - 1)) && is_end(at + scene.size());
-      if (is_word) most = std::max(most, scene.size());
-    }
-  }
-  return most;
+  const NamePart part = find_part(name, scenes);
+  return part.end - part.begin;
 }
 
 std::vector<std::string> in_lower_case(std::vector<std::string> names) {
@@ -42,25 +32,44 @@ std::vector<std::string> in_lower_case(std::vector<std::string> names) {
   return names;
 }
 
+/// Whether pictures or arrays lie in a folder or in one inside it.
+bool may_hold_views(const fs::path& folder) {
+  std::error_code error;
+  fs::recursive_directory_iterator it(folder, fs::directory_options::skip_permission_denied, error);
+  for (const fs::recursive_directory_iterator end; !error && it != end; it.increment(error)) {
+    std::error_code ignored;
+    if (it.depth() == 1) it.disable_recursion_pending();
+    if ((is_image_name(it->path()) || is_array_name(it->path())) && it->is_regular_file(ignored)) {
+      return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 SceneFiles::SceneFiles(std::vector<std::string> scenes, std::vector<std::string> others,
-                       bool is_only)
+                       bool is_only, std::string self)
     : scenes_(in_lower_case(std::move(scenes))),
       others_(in_lower_case(std::move(others))),
-      is_only_(is_only) {}
+      is_only_(is_only),
+      self_(std::move(self)) {
+  // Another form of the same light field.
+  std::erase_if(others_, [&](const std::string& other) {
+    return std::ranges::find(scenes_, other) != scenes_.end();
+  });
+}
 
 bool SceneFiles::is_named_after(const fs::path& file) const {
-  const std::string name = lower_case(file.stem().string());
+  const std::string name = file.stem().string();
   return likeness(name, scenes_) > likeness(name, others_);
 }
 
 bool SceneFiles::contains(const fs::path& file) const {
+  if (file.filename() == self_) return false;
   const std::string name = file.stem().string();
-  const std::string small = lower_case(name);
-  const std::size_t own = likeness(small, scenes_), of_another = likeness(small, others_);
-  return own > of_another ||
-         (is_only_ && own == of_another && own == 0 && !names_other_scene(name));
+  const std::size_t own = likeness(name, scenes_), of_another = likeness(name, others_);
+  return own > of_another || (is_only_ && own == 0 && of_another == 0);
 }
 
 std::vector<std::string> light_fields_beside(const fs::path& file) {
@@ -76,7 +85,9 @@ std::vector<std::string> light_fields_beside(const fs::path& file) {
     const std::string stem = is_folder ? name : other.stem().string();
     const bool is_map =
         is_folder ? is_map_folder(stem) : map_kind(stem).has_value() || is_bare_truth_name(stem);
-    if (!is_map && (is_folder || is_array_name(other))) names.push_back(stem);
+    if (!is_map && (is_folder ? may_hold_views(other) : is_array_name(other))) {
+      names.push_back(stem);
+    }
   }
   return names;
 }

@@ -11,8 +11,13 @@ namespace episcope::io {
 class SceneFiles {
  public:
   /// `scenes`: what the light field is called; `others`: what others of the folder may be called.
-  /// `is_only`: maps that name no light field belong to this one. Upper and lower case count alike.
-  SceneFiles(std::vector<std::string> scenes, std::vector<std::string> others, bool is_only);
+  /// `is_only`: maps that name no light field belong to this one. `self`: the name of the file that
+  /// holds the light field, which is no map of it. Upper and lower case count alike.
+  SceneFiles(std::vector<std::string> scenes, std::vector<std::string> others, bool is_only,
+             std::string self = {});
+
+  /// What the light field is called, in lower case.
+  [[nodiscard]] const std::vector<std::string>& scenes() const { return scenes_; }
 
   /// Whether a file or folder is called after the light field ("cotton_disparity.npy",
   /// "labels_cotton"), and not after another with a longer name there ("cotton_2_disparity.npy").
@@ -25,10 +30,11 @@ class SceneFiles {
   std::vector<std::string> scenes_;
   std::vector<std::string> others_;
   bool is_only_;
+  std::string self_;
 };
 
 /// Stems of the files in the folder of `file` that may be other light fields, and names of the
-/// folders there that are none of maps.
+/// folders there that hold pictures or arrays and are none of maps.
 [[nodiscard]] std::vector<std::string> light_fields_beside(const std::filesystem::path& file);
 
 }  // namespace episcope::io

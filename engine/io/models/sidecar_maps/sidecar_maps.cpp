@@ -327,8 +327,7 @@ void read_region(const MapSet& set, const SidecarViews& views, const SidecarNote
   SetOutcome outcome;
   const fs::path& path = set.entries.front().file;
   try {
-    truth.regions.insert_or_assign(region_name(path.stem().string()),
-                                   read_fitting_mask(path, views));
+    truth.regions.insert_or_assign(set.region, read_fitting_mask(path, views));
     outcome.read.push_back(path);
   } catch (const IoError& error) {
     outcome.failed.push_back(path);
@@ -338,7 +337,7 @@ void read_region(const MapSet& set, const SidecarViews& views, const SidecarNote
 }
 
 /// Reads masks beside views: of valid and of invalid pixels, which go to the validity of `truth`'s
-/// disparity, and regions of the center view (`region_name`). Masks of views without disparity and
+/// disparity, and regions of the center view. Masks of views without disparity and
 /// such that leave nothing valid are left out. Throws Cancelled.
 void read_sidecar_masks(const std::vector<MapSet>& sets, const SidecarViews& views,
                         const SidecarNotes& notes, GroundTruth& truth) {
@@ -371,17 +370,20 @@ void set_aside(std::vector<MapSet>& sets, const SidecarNotes& notes) {
   std::erase_if(sets, [](const MapSet& set) { return set.entries.empty(); });
 }
 
-/// Where they would be the only disparity.
-void tell_computed(const std::vector<fs::path>& files, ConventionReport& report) {
-  const auto is_disparity = [](const fs::path& file) {
-    const bool is_result = own_file(file) != OwnFile::None;
-    return map_kind(file.stem().string()) == MapKind::Disparity && can_hold_values(file) &&
-           !is_result;
+/// Where they would be the only truth.
+void tell_computed(const std::vector<ComputedMap>& maps, const fs::path& folder,
+                   ConventionReport& report) {
+  const auto is_value = [](const ComputedMap& map) {
+    const bool is_named_so = map.kind == MapKind::Disparity || map.kind == MapKind::Depth;
+    return is_named_so && can_hold_values(map.file) && own_file(map.file) == OwnFile::None;
   };
-  const auto first = std::ranges::find_if(files, is_disparity);
-  if (first == files.end()) return;
-  report.warnings.push_back(
-      fmt::format(finding_text("map.computed_name"), first->filename().string()));
+  const auto first = std::ranges::find_if(maps, is_value);
+  if (first == maps.end()) return;
+  const fs::path& file = first->file;
+  const bool is_beside = file.parent_path() == folder;
+  const fs::path name =
+      is_beside ? file.filename() : file.parent_path().filename() / file.filename();
+  report.warnings.push_back(fmt::format(finding_text("map.computed_name"), name.string()));
 }
 
 }  // namespace
@@ -403,15 +405,15 @@ std::optional<MapUnit> stated_unit(const fs::path& folder, FileUsage& account) {
 
 SidecarMaps read_sidecar_maps(const SidecarViews& views, const SidecarNotes& notes,
                               const Progress& progress) {
-  FoundMapSets maps = find_maps(views.files, views.folder, views.is_own);
+  FoundMapSets maps = find_maps(views.files, views.folder, views.own);
   SidecarMaps found{{}, {}, views.camera};
   for (const fs::path& folder : maps.folders) notes.account.add_folder(folder);
   if (maps.sets.empty() && maps.computed.empty()) return found;
   progress.step("reading ground truth");
   set_aside(maps.sets, notes);
-  for (const fs::path& file : maps.computed) {
-    const bool is_result = own_file(file) != OwnFile::None;
-    notes.account.leave_out({file}, is_result ? "results" : "maps of methods, by their names");
+  for (const ComputedMap& map : maps.computed) {
+    const bool is_result = own_file(map.file) != OwnFile::None;
+    notes.account.leave_out({map.file}, is_result ? "results" : "maps of methods, by their names");
   }
   settle_fractional_labels(maps.sets, views, notes);
   SidecarDisparity disparity =
@@ -419,7 +421,7 @@ SidecarMaps read_sidecar_maps(const SidecarViews& views, const SidecarNotes& not
   found.truth.field = std::move(disparity.field);
   found.camera = disparity.camera;
   found.is_sign_assumed = disparity.is_sign_assumed;
-  if (found.truth.field.empty()) tell_computed(maps.computed, notes.report);
+  if (found.truth.field.empty()) tell_computed(maps.computed, views.folder, notes.report);
   if (!views.needs_truth) return found;
   SidecarLabels labels = read_sidecar_labels(maps.sets, views, notes, progress.part(0.6, 0.9));
   found.truth.labels = std::move(labels.labels);
@@ -431,10 +433,8 @@ SidecarMaps read_sidecar_maps(const SidecarViews& views, const SidecarNotes& not
 std::vector<LabelInfo> add_maps_named_after(const fs::path& file, const OpenOptions& options,
                                             SceneParts& parts, const SidecarNotes& notes,
                                             const Progress& progress) {
-  const SceneFiles own({file.stem().string()}, light_fields_beside(file), false);
-  const auto is_own = [&](const fs::path& map) {
-    return map.filename() != file.filename() && own.contains(map);
-  };
+  const SceneFiles own({file.stem().string()}, light_fields_beside(file), false,
+                       file.filename().string());
   const ViewFiles views{grid_of(parts.samples), {}};
   SidecarMaps beside =
       read_sidecar_maps({.files = views,
@@ -443,7 +443,7 @@ std::vector<LabelInfo> add_maps_named_after(const fs::path& file, const OpenOpti
                          .camera = parts.info.camera,
                          .map_views = options.map_views(),
                          .needs_truth = options.needs_truth,
-                         .is_own = is_own},
+                         .own = own},
                         notes, progress);
   if (parts.truth.labels.empty()) parts.truth.labels = std::move(beside.truth.labels);
   parts.truth.regions.merge(beside.truth.regions);
@@ -457,7 +457,7 @@ std::vector<LabelInfo> add_maps_named_after(const fs::path& file, const OpenOpti
 void apply_masks_beside(const SidecarViews& views, const SidecarNotes& notes,
                         DisparityField& field) {
   if (field.empty()) return;
-  for (const MapSet& set : find_maps(views.files, views.folder, views.is_own).sets) {
+  for (const MapSet& set : find_maps(views.files, views.folder, views.own).sets) {
     const bool is_mask = set.kind == MapKind::Valid || set.kind == MapKind::Invalid;
     const bool is_picture = !set.entries.empty() && can_hold_labels(set.entries.front().file);
     if (is_mask && is_picture) read_validity(set, views, notes, field);

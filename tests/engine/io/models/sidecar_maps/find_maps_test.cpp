@@ -71,6 +71,10 @@ class FindMapsTest : public QObject {
                                   << "disp_{}.pfm" << 0 << "disp_#.pfm";
     QTest::newRow("counted views") << "view{}.png"
                                    << "disp_{}_{}.pfm" << 1 << "disp_#_#.pfm";
+    QTest::newRow("frames are views") << "frame_{}.png"
+                                      << "gt_disp_frame_{}.pfm" << 1 << "gt_disp_frame_#.pfm";
+    QTest::newRow("frames are views, folder") << "frame_{}.png"
+                                              << "depth/frame_{}.npy" << 1 << "depth/frame_#.npy";
     QTest::newRow("rows") << "{}/{}.png"
                           << "{}/{}_disparity.npy" << 1 << "*/*_disparity.npy";
     QTest::newRow("rows, name behind") << "row_{}/view_{}.png"
@@ -169,6 +173,20 @@ class FindMapsTest : public QObject {
     QVERIFY(set_of(found, "#_#_label.png") != nullptr);
     QCOMPARE(set_of(found, "#_#_label.npy")->kind, io::MapKind::Labels);
     QCOMPARE(set_of(found, "#_#_depth.npy")->kind, io::MapKind::Depth);
+  }
+
+  void masksOfViews_areNoRegions() {
+    const GridShape grid{2, 2};
+    for (const char* form : {"out_{}_{}_mask.png", "mask_net.png"}) {
+      for (const fs::path& file : views(grid, form).files) touch(file.filename().string());
+    }
+
+    const io::FoundMapSets found = io::find_maps(views(grid, "out_{}_{}.png"), path());
+
+    QCOMPARE(found.sets.size(), std::size_t{2});
+    QCOMPARE(set_of(found, "out_#_#_mask.png")->kind, io::MapKind::Valid);
+    QCOMPARE(set_of(found, "mask_net.png")->region, std::string("net"));
+    QVERIFY(found.computed.empty());
   }
 
   void viewsAreNoMaps_whateverTheirNames() {

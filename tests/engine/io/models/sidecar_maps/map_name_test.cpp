@@ -69,13 +69,6 @@ class MapNameTest : public QObject {
     QCOMPARE(static_cast<int>(io::map_claim(name.toStdString())), claim);
   }
 
-  void wordsOfAnotherScene_areSeen() {
-    QVERIFY(io::names_other_scene("cotton_labels"));
-    for (const char* name : {"labels", "gt_disparity", "disparity_epi_l", "object_mask", "05_03"}) {
-      QVERIFY2(!io::names_other_scene(name), name);
-    }
-  }
-
   void region_isNamedAfterItsMask() {
     QCOMPARE(io::region_name("planes_mask"), std::string("planes"));
     QCOMPARE(io::region_name("object_mask_03_03"), std::string("object"));

@@ -58,6 +58,46 @@ class TrueNamesTest : public QObject {
     file.close();
     target.commit();
   }
+  /// All views in one picture: side by side, or as lenslets.
+  void write_mosaic(const fs::path& file, bool are_lenslets) const {
+    const ViewStack<std::uint8_t>& views = scene().views;
+    const int height = views.height(), width = views.width();
+    Image<std::uint8_t> mosaic(3 * height, 3 * width, views.channels());
+    for (int y = 0; y < mosaic.height(); ++y) {
+      for (int x = 0; x < mosaic.width(); ++x) {
+        const ViewIndex view =
+            are_lenslets ? ViewIndex{y % 3, x % 3} : ViewIndex{y / height, x / width};
+        const auto from = views.view(view);
+        for (int c = 0; c < views.channels(); ++c) {
+          mosaic.at(y, x, c) =
+              are_lenslets ? from.at(y / 3, x / 3, c) : from.at(y % height, x % width, c);
+        }
+      }
+    }
+    io::write_png(file, mosaic.view());
+  }
+  /// A light field in the form that its suffix names, or as views: "cam/{}_{}.png".
+  void write_as(const std::string& name) const {
+    const ViewStack<std::uint8_t>& views = scene().views;
+    if (name.find('{') != std::string::npos) return folder_.write_views(LayeredFolder::named(name));
+    if (name.ends_with(".h5")) return write_arrays(name, [](io::Hdf5Output&) {});
+    if (name.ends_with(".png")) {
+      return write_mosaic(folder_.place(name), name.find("eslf") != std::string::npos);
+    }
+    io::write_npy<std::uint8_t>(
+        folder_.place(name),
+        {3, 3, static_cast<std::size_t>(views.height()), static_cast<std::size_t>(views.width()),
+         static_cast<std::size_t>(views.channels())},
+        {views.data(), views.size()});
+  }
+  /// Writes and opens it.
+  Scene open_as(const std::string& name) const {
+    write_as(name);
+    const bool is_of_views = name.find('{') != std::string::npos;
+    io::OpenOptions options;
+    if (name.ends_with(".png") && !is_of_views) options.grid = "3x3";
+    return folder_.open(is_of_views ? fs::path(name).parent_path().string() : name, options);
+  }
   bool is_true(const Scene& scene) const {
     if (!scene.truth->field.contains(kCenter)) return false;
     const DisparityView map = scene.truth->field.view(kCenter);
@@ -283,12 +323,152 @@ class TrueNamesTest : public QObject {
   void labelsOfAnotherScene_areNotTaken() {
     const auto labels = scene().labels.view(kCenter);
     folder_.write_views(LayeredFolder::named("s/dino/{}_{}.png"));
+    write_arrays("s/cotton/lf.h5", [](io::Hdf5Output&) {});
     folder_.write_npy("s/cotton_labels/labels.npy", labels);
     folder_.write_npy("s/cotton_labels.npy", labels);
     QVERIFY(folder_.open("s/dino").truth->labels.empty());
 
     folder_.write_npy("s/labels.npy", labels);
     QVERIFY(!folder_.open("s/dino").truth->labels.empty());
+  }
+
+  void unknownWords_areNoOtherScene_data() {
+    QTest::addColumn<QString>("light_field");
+    QTest::addColumn<QString>("map");
+    const auto row = [](const char* light_field, const char* map) {
+      QTest::newRow(map) << light_field << map;
+    };
+    row("cotton/cam/{}_{}.png", "cotton/disparity_px.npy");
+    row("cotton/cam/{}_{}.png", "cotton/disparity_pfm/2_2.npy");
+    row("lf.npy", "disparity_final.npy");
+    row("lf.png", "gt_disparity_mm.npy");
+  }
+  void unknownWords_areNoOtherScene() {
+    QFETCH(QString, light_field);
+    QFETCH(QString, map);
+    folder_.write_npy(map.toStdString(), truth());
+
+    const Scene read = open_as(light_field.toStdString());
+
+    QVERIFY2(is_true(read), describe(read.convention).c_str());
+  }
+
+  void otherForms_areOfTheSameScene_data() {
+    QTest::addColumn<QString>("light_field");
+    QTest::addColumn<QString>("other");
+    QTest::addColumn<QString>("map");
+    const auto row = [](const char* light_field, const char* other, const char* map) {
+      QTest::addRow("%s beside %s", light_field, other) << light_field << other << map;
+    };
+    row("flower_eslf.png", "flower/{}_{}.png", "flower_disparity.npy");
+    row("lf.npy", "lf.h5", "lf_disparity.npy");
+    row("lf.npy", "lf/{}_{}.png", "lf_disparity.npy");
+    row("cotton.h5", "cotton/{}_{}.png", "cotton_disparity.npy");
+  }
+  void otherForms_areOfTheSameScene() {
+    QFETCH(QString, light_field);
+    QFETCH(QString, other);
+    QFETCH(QString, map);
+    write_as(other.toStdString());
+    folder_.write_npy(map.toStdString(), truth());
+
+    const Scene read = open_as(light_field.toStdString());
+
+    QVERIFY2(is_true(read), describe(read.convention).c_str());
+  }
+
+  void masksNamedAfterAScene_areOfValidPixels_data() {
+    QTest::addColumn<QString>("light_field");
+    QTest::addColumn<QString>("name");
+    QTest::newRow("views") << "out_{:02}_{:02}.png"
+                           << "out_02_02";
+    QTest::newRow("mosaic") << "flower_eslf.png"
+                            << "flower";
+    QTest::newRow("NumPy") << "cotton.npy"
+                           << "cotton";
+    QTest::newRow("HDF5") << "cotton.h5"
+                          << "cotton";
+  }
+  void masksNamedAfterAScene_areOfValidPixels() {
+    QFETCH(QString, light_field);
+    QFETCH(QString, name);
+    folder_.write_npy(name.toStdString() + "_disparity.npy", truth());
+    Image<std::int32_t> numbers(truth().height, truth().width);
+    std::ranges::copy(left_half(), numbers.begin());
+    if (light_field.endsWith(".npy")) {
+      folder_.write_npy("cotton_mask.npy", ImageView<const std::int32_t>(numbers));
+    } else {
+      io::write_png(folder_.place(name.toStdString() + "_mask.png"), left_half().view());
+    }
+
+    const Scene read = open_as(light_field.toStdString());
+
+    QVERIFY2(read.truth->has_disparity(), describe(read.convention).c_str());
+    QVERIFY2(!read.truth->field.view(kCenter).is_valid(3, truth().width - 1),
+             describe(read.convention).c_str());
+    QVERIFY(read.truth->field.view(kCenter).is_valid(3, 3));
+    QVERIFY(read.truth->regions.empty());
+  }
+
+  void regions_mayBeNamedByTheirFolder() {
+    folder_.write_views(LayeredFolder::named("{}_{}.png"));
+    io::write_png(folder_.place("object_masks/2_2.png"), left_half().view());
+    io::write_png(folder_.place("mask_net.png"), left_half().view());
+
+    const Scene read = folder_.open();
+
+    QVERIFY2(read.truth->regions.contains("object"), describe(read.convention).c_str());
+    QVERIFY(read.truth->regions.contains("net"));
+    QCOMPARE(read.truth->regions.size(), std::size_t{2});
+  }
+
+  void wordsOfOwners_areNoClaims_data() {
+    QTest::addColumn<QString>("light_field");
+    QTest::addColumn<QString>("map");
+    QTest::newRow("views") << "net_{:02}_{:02}.png"
+                           << "net_02_02_disp.npy";
+    QTest::newRow("mosaic") << "raw_lf_eslf.png"
+                            << "raw_lf_disparity.npy";
+    QTest::newRow("NumPy") << "raw_lf.npy"
+                           << "raw_lf_disparity.npy";
+    QTest::newRow("HDF5") << "raw_lf.h5"
+                          << "raw_lf_disparity.npy";
+  }
+  void wordsOfOwners_areNoClaims() {
+    QFETCH(QString, light_field);
+    QFETCH(QString, map);
+    folder_.write_npy(map.toStdString(), truth());
+
+    const Scene read = open_as(light_field.toStdString());
+
+    QVERIFY2(is_true(read), describe(read.convention).c_str());
+  }
+
+  void groups_nameNoSteps() {
+    write_arrays("lf.h5", [&](io::Hdf5Output& file) {
+      file.add_group("raw");
+      add(file, "raw/disparity", shape_of(truth()), truth().data);
+    });
+    QVERIFY(is_true(folder_.open("lf.h5")));
+
+    write_arrays("lf.h5", [&](io::Hdf5Output& file) {
+      file.add_group("estimate");
+      add(file, "estimate/disparity", shape_of(truth()), truth().data);
+    });
+    QVERIFY(!folder_.open("lf.h5").truth->has_disparity());
+  }
+
+  void foldersOfMethods_areWarnedOf() {
+    folder_.write_views(LayeredFolder::named("{}_{}.png"));
+    folder_.write_npy("disparity_filtered/2_2.npy", truth());
+    io::write_png(folder_.place("disparity_filtered/mask.png"), left_half().view());
+    QVERIFY(warns_of(folder_.open(), "disparity_filtered/2_2.npy is not taken for true"));
+
+    folder_.write_npy("gt_disparity.npy", truth());
+    const Scene read = folder_.open();
+    QVERIFY2(is_true(read), describe(read.convention).c_str());
+    QVERIFY(read.truth->field.view(kCenter).is_valid(3, truth().width - 1));
+    QVERIFY(!warns_of(read, "is not taken for true"));
   }
 
   void labelsBesideTwoFiles_areOfNone() {
