@@ -114,19 +114,20 @@ void save_estimate(const FoundEstimate& found, const py::object& given_path, con
   });
 }
 
-/// What is judged: a result, the name of its file, or an array of maps, read so.
-std::shared_ptr<Estimate> judged_estimate(const py::object& map, const LightField& lf,
-                                          const io::MapReading& reading) {
-  if (py::isinstance<FoundEstimate>(map)) {
-    const EstimatePtr& found = py::cast<const FoundEstimate&>(map).estimate;
-    auto copy = std::make_shared<Estimate>();
-    copy->set_provenance(found->provenance());
-    copy->field = found->field.clone();
-    copy->layered.foreground = found->layered.foreground.clone();
-    copy->layered.background = found->layered.background.clone();
-    if (!(reading == io::MapReading{})) io::apply_reading(reading, &lf, *copy);
-    return copy;
-  }
+/// A result with its maps read otherwise.
+EstimatePtr changed_estimate(const Estimate& found, const LightField& lf,
+                             const io::MapReading& reading) {
+  auto changed = std::make_shared<Estimate>();
+  changed->set_provenance(found.provenance());
+  changed->field = found.field.clone();
+  changed->layered.foreground = found.layered.foreground.clone();
+  io::apply_reading(reading, &lf, *changed);  // refuses one in two layers
+  return changed;
+}
+
+/// Of the file of a result, or of an array of maps, read so.
+std::shared_ptr<Estimate> foreign_estimate(const py::object& map, const LightField& lf,
+                                           const io::MapReading& reading) {
   if (names_path(map)) {
     return std::make_shared<Estimate>(read_result_of(lf, path_from(map), reading));
   }
@@ -138,6 +139,22 @@ std::shared_ptr<Estimate> judged_estimate(const py::object& map, const LightFiel
         "give map_transpose=True");
   }
   return std::make_shared<Estimate>(result_from_maps(lf, std::move(field), "array", reading));
+}
+
+/// What is judged, and in which view.
+std::pair<EstimatePtr, ViewIndex> judged_estimate(const py::object& map, const Scene& scene,
+                                                  std::optional<ViewIndex> wanted,
+                                                  const io::MapReading& reading) {
+  const LightField& lf = *scene.light_field;
+  if (py::isinstance<FoundEstimate>(map)) {
+    EstimatePtr found = py::cast<const FoundEstimate&>(map).estimate;
+    if (!(reading == io::MapReading{})) found = changed_estimate(*found, lf, reading);
+    return {found, view_to_judge(*found, scene, wanted)};
+  }
+  const std::shared_ptr<Estimate> read = foreign_estimate(map, lf, reading);
+  const ViewIndex view = view_to_judge(*read, scene, wanted);
+  place_foreign_map(view, *read);
+  return {read, view};
 }
 
 py::dict scores_of(const Estimate& estimate, const Evaluation& evaluation, Protocol protocol,
@@ -162,8 +179,8 @@ py::dict scores_of(const Estimate& estimate, const Evaluation& evaluation, Proto
 py::dict score_scene(const py::object& map, const OpenedScene& opened, EvaluationOptions options,
                      const py::object& view, const io::MapReading& reading) {
   const LightField& lf = opened.light_field();
-  const std::shared_ptr<Estimate> estimate = judged_estimate(map, lf, reading);
-  const ViewIndex at = settle_view(*opened.scene, view_from(view, lf.grid()), *estimate);
+  const auto [estimate, at] =
+      judged_estimate(map, *opened.scene, view_from(view, lf.grid()), reading);
   std::optional<io::BetterReading> better;
   Evaluation evaluation = result_of_job(py::none(), 0, [&](const Progress& job) {
     options.progress = job;

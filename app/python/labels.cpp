@@ -147,7 +147,9 @@ FoundLabels label(const py::object& light_field, const py::object& painted,
   const auto schema = labeler_schema();
   const LabelerParameters parameters = schema.parse(parameters_from(given, schema.descriptions()));
   Scribbles scribbles = scribbles_from(painted, *opened.scene);
-  const auto ignored = ignore ? *ignore : usually_ignored(scribbles);
+  const bool is_given = !painted.is_none();  // else 255 is a label, as where the files state it
+  const auto unasked = is_given ? usually_ignored(scribbles) : std::vector<std::int32_t>{};
+  const auto& ignored = ignore ? *ignore : unasked;
   leave_painted(ignored, scribbles);
   const EstimatePtr estimate = estimate_from(disparity);
   const Device on = run_options(device, threads).device;

@@ -152,21 +152,25 @@ ViewIndex judged_view(const Scene& scene) {
   return view_of(truth.has_disparity() ? truth.field : truth.foreground, *scene.light_field);
 }
 
-ViewIndex settle_view(const Scene& scene, std::optional<ViewIndex> wanted, Estimate& estimate) {
-  ViewStack<float>& maps = estimate.field.disparity;
-  const ViewIndex usual = wanted.value_or(judged_view(scene));
-  if (maps.grid().count() != 1) return usual;
-  const bool is_ours = !estimate.version.empty();
-  if (is_ours) return !wanted && can_judge(estimate, scene, maps.first()) ? maps.first() : usual;
+ViewIndex view_to_judge(const Estimate& estimate, const Scene& scene,
+                        std::optional<ViewIndex> wanted) {
+  if (wanted) return *wanted;
+  const ViewStack<float>& maps = estimate.field.disparity;
+  const bool is_ours_of_one = maps.grid().count() == 1 && !estimate.version.empty();
+  const bool has_own = is_ours_of_one && can_judge(estimate, scene, maps.first());
+  return has_own ? maps.first() : judged_view(scene);
+}
+
+void place_foreign_map(ViewIndex view, Estimate& estimate) {
+  if (estimate.field.disparity.grid().count() != 1 || !estimate.version.empty()) return;
   const auto move = [&](auto& stack) {
-    if (!stack.empty()) stack.keep_in_place(stack.first(), {1, 1}, usual);
+    if (!stack.empty()) stack.keep_in_place(stack.first(), {1, 1}, view);
   };
-  move(maps);
+  move(estimate.field.disparity);
   move(estimate.field.valid);
   move(estimate.confidence);
   move(estimate.second.disparity);
   move(estimate.second.valid);
-  return usual;
 }
 
 bool can_judge(const Estimate& estimate, const Scene& scene, ViewIndex view) {

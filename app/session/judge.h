@@ -27,9 +27,12 @@ using EvaluationPtr = std::shared_ptr<const Evaluation>;
 [[nodiscard]] ViewIndex judged_view(const Scene& scene);
 
 /// The view in which a result is judged: the one that is wanted, else the only one of a result of
-/// ours, else `judged_view`. A single map of another program, which tells no view, is moved there.
-[[nodiscard]] ViewIndex settle_view(const Scene& scene, std::optional<ViewIndex> wanted,
-                                    Estimate& estimate);
+/// ours, else `judged_view`.
+[[nodiscard]] ViewIndex view_to_judge(const Estimate& estimate, const Scene& scene,
+                                      std::optional<ViewIndex> wanted);
+
+/// Moves a single map of another program, which tells no view, to the view that is judged.
+void place_foreign_map(ViewIndex view, Estimate& estimate);
 
 /// Whether scene and result have what `judge` compares in this view.
 [[nodiscard]] bool can_judge(const Estimate& estimate, const Scene& scene, ViewIndex view);

@@ -506,8 +506,10 @@ class Judge {
     job_.progress().step("evaluating " + file.result);
     const auto estimate =
         std::make_shared<Estimate>(read_result_of(light_field, file.result, reading_));
-    if (request_.view) static_cast<void>(view_of(light_field, *request_.view));
-    const ViewIndex view = settle_view(scene, request_.view, *estimate);
+    const auto wanted =
+        request_.view ? std::optional(view_of(light_field, *request_.view)) : std::nullopt;
+    const ViewIndex view = view_to_judge(*estimate, scene, wanted);
+    place_foreign_map(view, *estimate);
     require_own_samples(file, *estimate, light_field);
     const EvaluationPtr evaluation = evaluation_of(file, *estimate, scene, view);
     if (!file.is_own) note_other_source(*estimate, light_field, job_);

@@ -521,7 +521,10 @@ namespace {
 /// Levels of a picture so that black is 0 and white the largest of the type. What libraries decode
 /// leaves white of PNM as it is stated, and 16 bits of a TIFF file whose 0 is white.
 void settle_levels(const fs::path& path, AnyImage& image) {
-  const auto header = stated_image_header(path);
+  FileBytes file(path);
+  const bool may_be_told =
+      file.begins_with("P") || file.begins_with("II") || file.begins_with("MM");
+  const auto header = may_be_told ? stated_image_header(path) : std::nullopt;
   if (!header || (header->white == 0 && !header->is_white_zero)) return;
   std::visit(
       [&]<class T>(Image<T>& samples) {

@@ -168,3 +168,14 @@ def test_truth_may_be_a_path(scene, result, tmp_path):
 
 def test_truth_has_no_error(scene):
     assert episcope.score(scene.truth, scene)["mse_100"] == 0
+
+
+def test_result_of_two_layers_has_the_scores_of_the_command_line(tmp_path, cli):
+    name = "transparent?size=64&grid=5"
+    scene = episcope.demo(name)
+    result = episcope.estimate(scene, "epi_two_layer")
+    result.save(tmp_path / "r.h5")
+    answer = cli("evaluate", "r.h5", "--truth", "demo:" + name, "--json", "--quiet")["results"][0]
+    scores = episcope.score(result, scene)
+    assert "layers_right" in scores
+    assert scores["layers_right"] == answer["layers_right"]
