@@ -74,7 +74,7 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
     {"positions.no_grid", "positions of cameras not used: they make no grid"},
     {"positions.regular",
      "cameras stand up to {:.2f} steps off the regular grid, which this method takes for granted; "
-     "stereo methods can use their positions"},
+     "net, plane_pm and stereo methods can use their positions"},
     // Numbers that a comparison with the truth lacks.
     {"missing.good",
      "{}: {:.2f} % of the pixels have no value and count as good pixels; means leave them out, as "

@@ -294,10 +294,9 @@ NetViews::NetViews(const NetTask& task, const DeviceStream& stream, const Progre
   std::vector<int> sector_begin;
   for (int k = 0; k < kNetSectors; ++k) {
     sector_begin.push_back(static_cast<int>(views.size()));
-    for (const ViewIndex view : task.sectors[k]) {
+    for (const auto& [view, way] : task.sectors[k]) {
       views.push_back({view.v, view.u});
-      offsets.push_back(
-          {static_cast<float>(view.u - task.view.u), static_cast<float>(view.v - task.view.v)});
+      offsets.push_back({static_cast<float>(way.u), static_cast<float>(way.v)});
     }
   }
   sector_begin.push_back(static_cast<int>(views.size()));

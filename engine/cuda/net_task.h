@@ -49,11 +49,17 @@ struct NetParts {
   std::array<NetReduction, kNetRefinements> refinement_reductions;
 };
 
+/// A view, and where its camera stands as seen from that of the reference, in steps of the grid.
+struct NetNeighbor {
+  ViewIndex view;
+  ViewPlace way;
+};
+
 /// What is wanted of one view.
 struct NetTask {
   const LightField& light_field;
   ViewIndex view;
-  std::array<std::vector<ViewIndex>, kNetSectors> sectors;  ///< Views that are compared with it.
+  std::array<std::vector<NetNeighbor>, kNetSectors> sectors;  ///< What is compared with it.
   /// Labels of the volume, equidistant from `first` to `last`.
   int labels = 0;
   float first = 0, last = 0;

@@ -104,6 +104,7 @@ struct NetScene {
   ViewIndex view;
   const NetWeights& weights;
   Image<float> guide;
+  NetPlaces places;
 
   [[nodiscard]] int height() const { return light_field.height(); }
   [[nodiscard]] int width() const { return light_field.width(); }
@@ -189,7 +190,7 @@ Beliefs run_volume(const NetScene& scene, Interval range, const Progress& progre
                   Volume<float>(scene.height(), count, scene.width()),
                   Image<float>(scene.height(), scene.width()),
                   Image<float>(scene.height(), scene.width())};
-  NetEvidence evidence(scene.light_field, scene.view, range, NetEvidenceOf::Planes);
+  NetEvidence evidence(scene.light_field, scene.view, range, NetEvidenceOf::Planes, scene.places);
   const auto label = [&](int i) {
     return first + (last - first) * (static_cast<float>(i) / static_cast<float>(count - 1));
   };
@@ -361,7 +362,8 @@ Selected run_selection(const NetScene& scene, const Hypotheses& hypotheses, cons
   progress.step("selection");
   const Image<float> blank(scene.height(), scene.width());
   Selected selected{blank, blank, blank, blank, blank};
-  NetEvidence evidence(scene.light_field, scene.view, range_of(hypotheses), NetEvidenceOf::Maps);
+  NetEvidence evidence(scene.light_field, scene.view, range_of(hypotheses), NetEvidenceOf::Maps,
+                       scene.places);
   NetStream stream;
   const int step = whole_groups(kNetSelectionInputs);
   const int input = stream.add_source(
@@ -449,7 +451,7 @@ Refined run_refinement(const NetScene& scene, int number, const Image<float>& di
                         window_median(disparity, 1, progress.part(0, 0))}};
   const Interval range = range_of(disparity);
   NetEvidence evidence(scene.light_field, scene.view, {range.min - step, range.max + step},
-                       NetEvidenceOf::Maps);
+                       NetEvidenceOf::Maps, scene.places);
   Refined refined{disparity, disparity};
   NetStream stream;
   const int out_step = whole_groups(kNetRefinementInputs);
@@ -500,7 +502,7 @@ cuda::NetTask device_task(const LightField& light_field, ViewIndex view,
                           const NetParameters& parameters) {
   return {.light_field = light_field,
           .view = view,
-          .sectors = net_sectors(light_field, view),
+          .sectors = net_sectors(light_field, view, parameters.places),
           .takes_mean = parameters.silhouettes == Silhouettes::Mean};
 }
 
@@ -537,7 +539,7 @@ NetMaps estimate_net(const LightField& light_field, ViewIndex view, const NetWei
     task.rounds = parameters.rounds;
     return run_on_device(*device, task, progress);
   }
-  const NetScene scene{light_field, view, weights, net_guide(light_field, view)};
+  const NetScene scene{light_field, view, weights, net_guide(light_field, view), parameters.places};
   Beliefs beliefs = run_volume(scene, parameters.range, progress.part(0, 0.65));
   Selected selected;
   for (int round = 0; round < parameters.rounds; ++round) {
@@ -564,7 +566,7 @@ NetMaps polish_by_net(const LightField& light_field, ViewIndex view, const Image
     task.start = &disparity;
     return run_on_device(*device, task, progress);
   }
-  const NetScene scene{light_field, view, weights, net_guide(light_field, view)};
+  const NetScene scene{light_field, view, weights, net_guide(light_field, view), parameters.places};
   const Hypotheses hypotheses = net_hypotheses(disparity, disparity, progress.part(0, 0));
   Selected selected = run_selection(scene, hypotheses, nullptr, progress.part(0, 0.5));
   return refine(scene, std::move(selected), parameters.silhouettes, progress.part(0.5, 1));

@@ -5,6 +5,7 @@
 #include "engine/core/light_field.h"
 #include "engine/core/progress.h"
 #include "engine/cuda/net.h"
+#include "engine/disparity/net_evidence.h"
 #include "engine/disparity/net_weights.h"
 
 namespace episcope {
@@ -17,6 +18,7 @@ struct NetParameters {
   Interval range;  ///< Disparities that are looked for, px per view step.
   Silhouettes silhouettes = Silhouettes::Mode;
   int rounds = 2;  ///< Of the selection.
+  NetPlaces places = nullptr;
 };
 
 /// What `net` finds for one view, `[y][x]`.

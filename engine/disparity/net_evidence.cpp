@@ -127,26 +127,34 @@ void write_planes(const ThreeRows& rows, float* out) {
 
 }  // namespace
 
-std::array<std::vector<ViewIndex>, kNetSectors> net_sectors(const LightField& light_field,
-                                                            ViewIndex reference, int most) {
-  std::array<std::vector<ViewIndex>, kNetSectors> sectors;
-  for (int i = 0; i < light_field.grid().count(); ++i) {
-    const ViewIndex view = light_field.grid().view_at(i);
+std::array<std::vector<cuda::NetNeighbor>, kNetSectors> net_sectors(const LightField& light_field,
+                                                                    ViewIndex reference,
+                                                                    const NetPlaces& places) {
+  const GridShape grid = light_field.grid();
+  const auto place_of = [&](ViewIndex view) {
+    return places ? (*places)[view.v * grid.u + view.u] : ViewPlace{1.0 * view.v, 1.0 * view.u};
+  };
+  const ViewPlace here = place_of(reference);
+  std::array<std::vector<cuda::NetNeighbor>, kNetSectors> sectors;
+  for (int i = 0; i < grid.count(); ++i) {
+    const ViewIndex view = grid.view_at(i);
     if (view == reference || !has_valid_pixel(light_field, view)) continue;
-    sectors[sector_of(view.v - reference.v, view.u - reference.u)].push_back(view);
+    const ViewPlace there = place_of(view);
+    sectors[sector_of(view.v - reference.v, view.u - reference.u)].push_back(
+        {view, {there.v - here.v, there.u - here.u}});
   }
-  const auto rank = [&](ViewIndex view) {
-    const int dv = view.v - reference.v, du = view.u - reference.u;
+  const auto rank = [&](const cuda::NetNeighbor& neighbor) {
+    const int dv = neighbor.view.v - reference.v, du = neighbor.view.u - reference.u;
     return std::tuple(dv * dv + du * du, dv, du);
   };
-  for (std::vector<ViewIndex>& views : sectors) {
+  for (std::vector<cuda::NetNeighbor>& views : sectors) {
     std::ranges::sort(views, {}, rank);
     const auto count = static_cast<int>(views.size());
-    if (count <= most) continue;
-    for (int i = 0; i < most; ++i) {
-      views[i] = views[static_cast<std::size_t>((2L * i + 1) * count / (2L * most))];
+    if (count <= kNetSectorViews) continue;
+    for (int i = 0; i < kNetSectorViews; ++i) {
+      views[i] = views[static_cast<std::size_t>((2L * i + 1) * count / (2L * kNetSectorViews))];
     }
-    views.resize(most);
+    views.resize(kNetSectorViews);
   }
   return sectors;
 }
@@ -167,14 +175,14 @@ Image<float> net_guide(const LightField& light_field, ViewIndex reference) {
 }
 
 NetEvidence::NetEvidence(const LightField& light_field, ViewIndex reference, Interval disparities,
-                         NetEvidenceOf kind, int sector_views)
+                         NetEvidenceOf kind, const NetPlaces& places)
     : light_field_(light_field), reference_(reference), disparities_(disparities), kind_(kind) {
-  windows_.push_back({.view = reference, .pixels = {}});
-  const auto sectors = net_sectors(light_field, reference, sector_views);
+  windows_.push_back({.neighbor = {reference, {}}, .pixels = {}});
+  const auto sectors = net_sectors(light_field, reference, places);
   for (int k = 0; k < kNetSectors; ++k) {
     sector_begin_[k] = static_cast<int>(windows_.size()) - 1;
-    for (const ViewIndex view : sectors[k]) {
-      windows_.push_back({.view = view, .dv = view.v - reference.v, .pixels = {}});
+    for (const cuda::NetNeighbor& neighbor : sectors[k]) {
+      windows_.push_back({.neighbor = neighbor, .pixels = {}});
     }
   }
   sector_begin_[kNetSectors] = static_cast<int>(windows_.size()) - 1;
@@ -184,14 +192,14 @@ NetEvidence::NetEvidence(const LightField& light_field, ViewIndex reference, Int
 void NetEvidence::hold(int first, int end, const Progress& progress) {
   parallel_for(static_cast<int>(windows_.size()), progress, [&](int i) {
     Window& window = windows_[i];
-    const auto [least, most] =
-        std::minmax({-disparities_.min * window.dv, -disparities_.max * window.dv});
+    const ViewPlace way = window.neighbor.way;
+    const auto [least, most] = std::minmax({-disparities_.min * way.v, -disparities_.max * way.v});
     // Coordinates are rounded: one row more on either side.
     const double lowest = std::clamp(std::floor(first + least) - 1, 0.0, height() - 1.0);
     const double highest = std::clamp(std::floor(end - 1 + most) + 2, 0.0, height() - 1.0);
     move_window(window, static_cast<int>(lowest), static_cast<int>(highest) + 1);
-    views_[i] = {window.data(), window.first, row_pixels() * kNetPixel,
-                 static_cast<float>(window.view.u - reference_.u), static_cast<float>(window.dv)};
+    views_[i] = {window.data(), window.first, row_pixels() * kNetPixel, static_cast<float>(way.u),
+                 static_cast<float>(way.v)};
   });
 }
 
@@ -211,8 +219,8 @@ void NetEvidence::move_window(Window& window, int first, int end) const {
 }
 
 void NetEvidence::read_rows(Window& window, int first) const {
-  const float count = window.view == reference_ ? 0.0F : 1.0F;
-  ThreeRows rows(light_field_, window.view, first);
+  const float count = window.neighbor.view == reference_ ? 0.0F : 1.0F;
+  ThreeRows rows(light_field_, window.neighbor.view, first);
   for (int y = first; y < window.end; ++y) {
     if (y > first) rows.go_down();
     float* const out = window.data() + (y - window.first) * row_pixels() * kNetPixel;

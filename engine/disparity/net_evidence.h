@@ -4,10 +4,12 @@
 #include "engine/core/image.h"
 #include "engine/core/light_field.h"
 #include "engine/core/progress.h"
+#include "engine/cuda/net_task.h"
 #include "engine/disparity/kernels/net_constants.h"
 #include "engine/disparity/kernels/net_evidence_kernel.h"
 
 #include <array>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -16,11 +18,14 @@ namespace episcope {
 /// Most views that are looked at of a sector.
 inline constexpr int kNetSectorViews = 12;
 
-/// The views of each sector around a reference, at most `most` of each, spread over the distance.
-/// Sector k is in the direction of 45 k degrees, from u to v. Views without a valid pixel are left
-/// out.
-[[nodiscard]] std::array<std::vector<ViewIndex>, kNetSectors> net_sectors(
-    const LightField& light_field, ViewIndex reference, int most = kNetSectorViews);
+/// Where cameras stand, view by view in canonical order (view_places); null = on the regular grid.
+using NetPlaces = std::shared_ptr<const std::vector<ViewPlace>>;
+
+/// The views of each sector around a reference, at most kNetSectorViews of each, spread over the
+/// distance. Sector k is in the direction of 45 k degrees of the grid, from u to v. Views without a
+/// valid pixel are left out.
+[[nodiscard]] std::array<std::vector<cuda::NetNeighbor>, kNetSectors> net_sectors(
+    const LightField& light_field, ViewIndex reference, const NetPlaces& places);
 
 /// What `net` is told of the reference view: R, G, B − 0.4, 4 (grey(x + 1) − grey(x − 1)), likewise
 /// along y, samples in [0, 1], the border repeated. The pixel itself stands for an invalid
@@ -38,7 +43,7 @@ class NetEvidence {
  public:
   /// For disparities within `disparities`.
   NetEvidence(const LightField& light_field, ViewIndex reference, Interval disparities,
-              NetEvidenceOf kind, int sector_views = kNetSectorViews);
+              NetEvidenceOf kind, const NetPlaces& places = nullptr);
 
   /// Reads what rows [first, end) need, and drops what rows before do. Later calls go on from
   /// there. Throws Cancelled.
@@ -59,8 +64,7 @@ class NetEvidence {
   };
   // Some rows of a view.
   struct Window {
-    ViewIndex view;
-    int dv = 0;
+    cuda::NetNeighbor neighbor;
     int first = 0;
     int end = 0;
     std::vector<Pixel> pixels;

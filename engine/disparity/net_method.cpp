@@ -10,6 +10,7 @@
 #include "engine/disparity/net_parts.h"
 #include "engine/disparity/net_weights.h"
 #include "engine/disparity/propagate_planes.h"
+#include "engine/disparity/stereo_costs.h"
 #include "engine/disparity/weights_file.h"
 
 #include <fmt/format.h>
@@ -19,6 +20,7 @@
 #include <filesystem>
 #include <memory>
 #include <mutex>
+#include <string>
 #include <vector>
 
 namespace episcope {
@@ -131,7 +133,9 @@ class NetMethod final : public CarriedMethod {
         parameters_(parameters),
         weights_(weights_of(parameters)),
         device_(device == Device::Cuda ? &weights_->on_device(progress.part(0, 0)) : nullptr),
-        range_(wide_enough(search_range(light_field, parameters.range, progress))) {}
+        range_(wide_enough(search_range(light_field, parameters.range, progress.part(0, 0.5)))) {
+    choose_places(progress.part(0.5, 1));
+  }
 
   [[nodiscard]] ViewIndex first_view() const override {
     return parameters_.view.value_or(lf_.center());
@@ -144,6 +148,7 @@ class NetMethod final : public CarriedMethod {
     Estimate estimate = estimate_of(
         view, range_,
         estimate_net(lf_, view, weights_->weights(), view_parameters(), progress, device_));
+    estimate.notes = place_notes_;
     if (!parameters_.weights.empty()) {
       estimate.notes.push_back(fmt::format(finding_text("run.weights"), parameters_.weights,
                                            hash_digits(weights_->hash())));
@@ -178,7 +183,19 @@ class NetMethod final : public CarriedMethod {
 
  private:
   [[nodiscard]] NetParameters view_parameters() const {
-    return {range_, parameters_.silhouettes, parameters_.rounds};
+    return {range_, parameters_.silhouettes, parameters_.rounds, places_};
+  }
+  void choose_places(const Progress& progress) {
+    const StereoCosts costs = prepare_stereo(lf_, MatchedViews::CrossHair,
+                                             {.epsilon = kUncapped,
+                                              .compensate_noise = false,
+                                              .aggregation = 0,
+                                              .positions = parameters_.positions,
+                                              .range = range_,
+                                              .view = parameters_.view},
+                                             progress);
+    places_ = costs.matching.places;
+    place_notes_ = costs.notes;
   }
 
   const LightField& lf_;
@@ -186,6 +203,8 @@ class NetMethod final : public CarriedMethod {
   std::shared_ptr<const ReadWeights> weights_;
   const cuda::DeviceNet* device_;  // Null: the CPU.
   Interval range_;
+  NetPlaces places_;
+  std::vector<std::string> place_notes_;
 };
 
 BlockwiseRun net_in_blocks(const LightField& lf, const NetMethodParameters& parameters,
@@ -212,6 +231,7 @@ Schema<NetMethodParameters> net_schema() {
             {"Corner views",
              "For all views: estimate the corners of the grid, too; without, the first view is "
              "carried to all others in half the time"})
+      .choice("positions", &P::positions, {"Camera positions", kPositionsHelp})
       .interval("range", &P::range, {"Disparity range", kRangeHelp, "px"}, {-20, 20})
       .view(
           "view", &P::view,

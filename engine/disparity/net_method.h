@@ -4,6 +4,7 @@
 #include "engine/core/schema.h"
 #include "engine/disparity/estimator.h"
 #include "engine/disparity/net.h"
+#include "engine/disparity/stereo_costs.h"
 
 #include <string>
 
@@ -17,6 +18,7 @@ struct NetMethodParameters {
   int rounds = 2;           ///< Of the selection.
   bool has_corners = true;  ///< For all views: the corners are estimated, too.
   std::string weights{};    ///< A file; empty = those that come with the program.
+  Positions positions = Positions::Use;
   IntervalOrAuto range{};
   ViewOrAuto view{};
 };
@@ -34,8 +36,9 @@ inline constexpr float kLeastSecond = 0.1F;
 /// is right to 0.07 px; of carried views, the mean of those that agree. Of one view,
 /// Estimate::second holds other disparities that are at least kLeastSecond probable. Weights are
 /// read once and kept while their file stays as it is. A range of less than 0.2 px is widened to
-/// that. Throws Unavailable without weights, IoError for a file that holds none, InvalidInput for
-/// those of another network and as estimate_net, DeviceFailure, Cancelled.
+/// that. Views are taken where files state their cameras, if they match better there
+/// (prepare_stereo). Throws Unavailable without weights, IoError for a file that holds none,
+/// InvalidInput for those of another network and as estimate_net, DeviceFailure, Cancelled.
 [[nodiscard]] Estimate estimate_by_net(const LightField& light_field,
                                        const NetMethodParameters& parameters, ViewSelection views,
                                        const Progress& progress, Device device = Device::Cpu);

@@ -189,10 +189,7 @@ Schema<StereoCostParameters> stereo_matching_schema() {
               {"Compare samples",
                "absolute: samples are compared as they are; relative: relative to the mean around "
                "them, for views of different brightness"})
-      .choice("positions", &P::positions,
-              {"Camera positions",
-               "use: views are sampled at the positions that files state, if they match better "
-               "there; ignore: on the regular grid"})
+      .choice("positions", &P::positions, {"Camera positions", kPositionsHelp})
       .interval("range", &P::range, {"Disparity range", kRangeHelp, "px"}, {-20, 20})
       .view("view", &P::view,
             {"View", "Row and column of the view to estimate; auto = center view"});

@@ -27,6 +27,9 @@ enum class Compared { Absolute, Relative };
 /// believed, or on a regular grid.
 enum class Positions { Use, Ignore };
 [[nodiscard]] Names<Positions> names_of(Positions);
+inline constexpr const char* kPositionsHelp =
+    "use: views are sampled at the positions that files state, if they match better there; "
+    "ignore: on the regular grid";
 
 /// What all methods of multi-view stereo have in common: which labels of which view are compared
 /// with the other views, and how.

@@ -2532,8 +2532,8 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>camDistance wird nicht verwendet.</translation>
     </message>
     <message>
-        <source>cameras stand up to %1 steps off the regular grid, which this method takes for granted; stereo methods can use their positions</source>
-        <translation>Kameras stehen bis zu %1 Schritte neben dem regelmäßigen Gitter, das dieses Verfahren voraussetzt; Stereoverfahren können ihre Positionen verwenden</translation>
+        <source>cameras stand up to %1 steps off the regular grid, which this method takes for granted; net, plane_pm and stereo methods can use their positions</source>
+        <translation>Kameras stehen bis zu %1 Schritte neben dem regelmäßigen Gitter, das dieses Verfahren voraussetzt; net, plane_pm und Stereoverfahren können ihre Positionen verwenden</translation>
     </message>
     <message>
         <source>checked against truth, mean grey error after warping: %1</source>

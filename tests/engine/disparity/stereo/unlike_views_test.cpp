@@ -124,7 +124,10 @@ class UnlikeViewsTest : public QObject {
  private slots:
   void relativeCost_bearsGains_data() { add_methods(); }
   void relativeCost_bearsGains();
-  void positions_areUsed_data() { add_methods(); }
+  void positions_areUsed_data() {
+    add_methods();
+    QTest::newRow("net") << "net";
+  }
   void positions_areUsed();
   void rowsFartherApart_areMeasuredInColumns();
   void methodsOfEpis_sayWhatTheyAssume();
