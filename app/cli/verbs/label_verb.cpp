@@ -166,13 +166,8 @@ Scribbles load_scribbles(const LabelRequest& request, Scene& scene, Job& job) {
 struct GivenSources {
   Scribbles scribbles;
   LabelingDisparity disparity;                      ///< Without a field: to be estimated.
-  std::optional<LabelProbabilities> probabilities;  ///< None: to be learnt.
-
-  [[nodiscard]] std::uint64_t hash() const {
-    return hash_of(LabelSources{.strokes = scribbles,
-                                .disparity = disparity.field.get(),
-                                .probabilities = probabilities ? &*probabilities : nullptr});
-  }
+  std::optional<LabelProbabilities> probabilities;  ///< None: to be learnt. Consumed by labeling.
+  std::uint64_t hash = 0;                           ///< hash_of all of them.
 };
 
 GivenSources load_sources(const LabelRequest& request, Scene& scene, Job& job) {
@@ -188,6 +183,10 @@ GivenSources load_sources(const LabelRequest& request, Scene& scene, Job& job) {
     given.probabilities =
         read_all_probabilities(request.given, scene, given.scribbles, progress.part(0.15, 0.2));
   }
+  given.hash =
+      hash_of(LabelSources{.strokes = given.scribbles,
+                           .disparity = given.disparity.field.get(),
+                           .probabilities = given.probabilities ? &*given.probabilities : nullptr});
   return given;
 }
 
@@ -275,13 +274,54 @@ void print_text_answer(const LabelRequest& request, const LabelAnswer& answer) {
   }
 }
 
+struct ComputedLabels {
+  LabelingDisparity disparity;
+  std::shared_ptr<const Labeling> labeling;
+  double seconds = 0;
+};
+
+ComputedLabels compute_labels(const Scene& scene, GivenSources& given, const LabelRequest& request,
+                              const Progress& progress) {
+  const Device device = request.job.run_options().device;
+  const Stopwatch watch;
+  LabelingDisparity disparity =
+      given.disparity.field
+          ? given.disparity
+          : find_labeling_disparity(scene, request.parameters, {}, progress.part(0, 0.1), device);
+  Labeler labeler(scene.light_field, disparity.field, find_edge_probabilities(scene, progress),
+                  disparity.confidence());
+  labeler.compute_on(device);
+  auto labeling = std::make_shared<const Labeling>(
+      label_views(labeler, given, request, scene.light_field->grid(), progress.part(0.1, 1)));
+  return {std::move(disparity), std::move(labeling), watch.seconds()};
+}
+
+// Returns the files and folders written.
+std::vector<std::string> write_all(const Scene& scene, const GivenSources& given,
+                                   const ComputedLabels& computed, const InputStream& from,
+                                   const LabelRequest& request, Job& job) {
+  job.progress().step("writing " + request.output);
+  const Segmentation segmentation{.labeling = computed.labeling,
+                                  .labels = given.scribbles.labels,
+                                  .parameters = labeler_schema().values(request.parameters),
+                                  .reading = scene.light_field->info().reading,
+                                  .sources_hash = given.hash};
+  write_segmentation(request.output, segmentation,
+                     from.is(request.input) ? std::string() : request.input, request.probabilities,
+                     job.progress().part(0.95, 1));
+  std::vector<std::string> written{request.output};
+  std::ranges::move(write_archive(scene, given.scribbles, request, computed.disparity, job),
+                    std::back_inserter(written));
+  std::ranges::move(write_masks(segmentation, request, job), std::back_inserter(written));
+  return written;
+}
+
 }  // namespace
 
 void run_label(const VerbArguments& arguments, std::stop_token stop) {
   LabelRequest request;
   if (!parse(arguments, request)) return;
-  const Device device = request.job.run_options().device;
-  check_device(device);
+  check_device(request.job.run_options().device);
   const InputStream from(request.input, stop);
   from.require_light_field();
   check_input(request.input);
@@ -292,41 +332,18 @@ void run_label(const VerbArguments& arguments, std::stop_token stop) {
   Scene scene = load_input(request.input, request.read, progress.part(0, 0.1));
   for (const auto& warning : scene.convention.warnings) job.note(warning);
   GivenSources given = load_sources(request, scene, job);
-  const std::uint64_t sources_hash = given.hash();
-  check_replaced(request, sources_hash);
-  const Scribbles& scribbles = given.scribbles;
-  const std::string unknown = unknown_labels_text(scribbles, scene.truth->labels);
+  check_replaced(request, given.hash);
+  const std::string unknown = unknown_labels_text(given.scribbles, scene.truth->labels);
   if (!unknown.empty()) job.note(unknown);
-  const Stopwatch watch;
-  const LabelingDisparity disparity =
-      given.disparity.field
-          ? given.disparity
-          : find_labeling_disparity(scene, request.parameters, {}, progress.part(0.1, 0.2), device);
-  Labeler labeler(scene.light_field, disparity.field, find_edge_probabilities(scene, progress),
-                  disparity.confidence());
-  labeler.compute_on(device);
-  const auto labeling = std::make_shared<const Labeling>(
-      label_views(labeler, given, request, scene.light_field->grid(), progress.part(0.2, 0.95)));
-  const double seconds = watch.seconds();
-  if (!labeling->note.empty()) job.note(labeling->note);
-  progress.step("writing " + request.output);
-  const Segmentation segmentation{.labeling = labeling,
-                                  .labels = scribbles.labels,
-                                  .parameters = labeler_schema().values(request.parameters),
-                                  .reading = scene.light_field->info().reading,
-                                  .sources_hash = sources_hash};
-  write_segmentation(request.output, segmentation,
-                     from.is(request.input) ? std::string() : request.input, request.probabilities,
-                     progress.part(0.95, 1));
-  std::vector<std::string> written{request.output};
-  std::ranges::move(write_archive(scene, scribbles, request, disparity, job),
-                    std::back_inserter(written));
-  std::ranges::move(write_masks(segmentation, request, job), std::back_inserter(written));
+  const ComputedLabels computed = compute_labels(scene, given, request, progress.part(0.1, 0.95));
+  const Labeling& labeling = *computed.labeling;
+  if (!labeling.note.empty()) job.note(labeling.note);
+  std::vector<std::string> written = write_all(scene, given, computed, from, request, job);
   const LabelAnswer answer{
-      *labeling,
-      judge_labeling(labeling->labels, scene.light_field->center(), scene.truth->labels,
-                     *scene.truth, disparity.field.get(), progress.part(1, 1)),
-      seconds, std::move(written)};
+      labeling,
+      judge_labeling(labeling.labels, scene.light_field->center(), scene.truth->labels,
+                     *scene.truth, computed.disparity.field.get(), progress.part(1, 1)),
+      computed.seconds, std::move(written)};
   const std::string other_numbers = other_numbers_text(answer.scores);
   if (!other_numbers.empty()) job.note(other_numbers);
   job.finish();

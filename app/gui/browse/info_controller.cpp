@@ -398,14 +398,11 @@ bool is_told(const ConventionReport& convention, std::string_view codes) {
   });
 }
 
-// `gpu`: device that methods compute on; none while unknown. `conventions`: opens the dialog.
-SceneInfo describe(const Scene& scene, const std::optional<CudaDevice>& gpu, QAction* conventions) {
+// Views, size, samples and what is known of them.
+void add_samples(SceneInfo& info, const Scene& scene) {
   const LightField& light_field = *scene.light_field;
   const GridShape grid = light_field.grid();
   const ConventionReport& convention = scene.convention;
-  const auto utf8 = [](const std::string& each) { return QString::fromStdString(each); };
-  SceneInfo info;
-  info.title = utf8(light_field.info().name);
   info.rows.push_back(
       {InfoPanelText::tr("Views"), InfoPanelText::tr("%1×%2").arg(grid.v).arg(grid.u), {}});
   info.rows.push_back({InfoPanelText::tr("Size"),
@@ -427,34 +424,55 @@ SceneInfo describe(const Scene& scene, const std::optional<CudaDevice>& gpu, QAc
     info.rows.push_back(
         {InfoPanelText::tr("Brightness"), finding_words(convention.gain), {}, "gain"});
   }
+}
+
+// Disparities, focus and ground truth.
+void add_disparities(SceneInfo& info, const Scene& scene) {
   if (const Interval range = known_disparity_range(scene); range.length() > 0) {
     info.rows.push_back(
         {InfoPanelText::tr("Disparity"),
          InfoPanelText::tr("%1 … %2 px").arg(number_text(range.min, 2), number_text(range.max, 2)),
          {}});
   }
-  if (convention.focus_px != 0) {
-    info.rows.push_back(
-        {InfoPanelText::tr("Focus"),
-         InfoPanelText::tr("%1 px applied").arg(number_text(convention.focus_px, 2)),
-         InfoPanelText::tr("All views but the center one are interpolated.")});
+  if (const double focus = scene.convention.focus_px; focus != 0) {
+    info.rows.push_back({InfoPanelText::tr("Focus"),
+                         InfoPanelText::tr("%1 px applied").arg(number_text(focus, 2)),
+                         InfoPanelText::tr("All views but the center one are interpolated.")});
   }
-  info.rows.push_back({InfoPanelText::tr("Ground truth"), truth_text(*scene.truth, grid), {}});
-  add_conventions(info, light_field.info().camera, convention);
-  if (const QString names = names_text(light_field.info().reading); !names.isEmpty()) {
+  info.rows.push_back(
+      {InfoPanelText::tr("Ground truth"), truth_text(*scene.truth, scene.light_field->grid()), {}});
+}
+
+// Files, those that belong to the light field among them.
+void add_files(SceneInfo& info, const Scene& scene) {
+  const LightFieldInfo& read = scene.light_field->info();
+  if (const QString names = names_text(read.reading); !names.isEmpty()) {
     info.rows.push_back({InfoPanelText::tr("Names"), names, {}, "names"});
   }
   for (const Companion& companion : scene.companions) {
-    info.rows.push_back({schema_text(companion_name(companion.kind)), utf8(companion.shape), {}});
+    info.rows.push_back(
+        {schema_text(companion_name(companion.kind)), QString::fromStdString(companion.shape), {}});
   }
-  if (const QString files = files_words(convention); !files.isEmpty()) {
+  if (const QString files = files_words(scene.convention); !files.isEmpty()) {
     info.rows.push_back({InfoPanelText::tr("Files"), files, {}, "files"});
   }
-  info.rows.push_back({InfoPanelText::tr("Source"), utf8(light_field.info().source), {}, "source"});
+  info.rows.push_back(
+      {InfoPanelText::tr("Source"), QString::fromStdString(read.source), {}, "source"});
+}
+
+// `gpu`: device that methods compute on; none while unknown. `conventions`: opens the dialog.
+SceneInfo describe(const Scene& scene, const std::optional<CudaDevice>& gpu, QAction* conventions) {
+  const LightFieldInfo& read = scene.light_field->info();
+  SceneInfo info;
+  info.title = QString::fromStdString(read.name);
+  add_samples(info, scene);
+  add_disparities(info, scene);
+  add_conventions(info, read.camera, scene.convention);
+  add_files(info, scene);
   info.rows.push_back({InfoPanelText::tr("GPU"),
                        gpu ? gpu_text(*gpu) : InfoPanelText::tr("searching …"),
                        gpu ? schema_text(gpu->why_not) : QString(), "gpu"});
-  for (const std::string& warning : convention.warnings) {
+  for (const std::string& warning : scene.convention.warnings) {
     info.warnings.push_back(in_window(warning, conventions));
   }
   return info;

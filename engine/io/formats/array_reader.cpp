@@ -292,68 +292,100 @@ void note_truth_file(const ArrayFile& file, const std::string& name, ConventionR
   if (is_there(map)) report.truth_files.push_back(map);
 }
 
-Scene read_single(const ArrayFile& file, const char* reader, const OpenOptions& options,
-                  const Progress& progress, const OtherArrays& more) {
-  const ArrayEntry& entry = light_field_of(file, options);
-  ChosenLayout chosen = choose_layout(file, entry, options.axes);
-  const std::unique_ptr<ArrayInput> array = file.open(entry);
-  SceneParts parts;
-  parts.info = info_of(file, reader);
-  if (options.on_center_view && !array->is_sequential()) {
-    const GridShape grid = chosen.layout.grid();
-    options.on_center_view(array_preview(*array, chosen.layout, grid.center()), parts.info, grid);
+// Reads a light field of one array step by step.
+class SingleReading {
+ public:
+  SingleReading(const ArrayFile& file, const char* reader, const OpenOptions& options,
+                const OtherArrays& more)
+      : file_(file),
+        options_(options),
+        more_(more),
+        entry_(light_field_of(file, options)),
+        chosen_(choose_layout(file, entry_, options.axes)),
+        array_(file.open(entry_)) {
+    parts_.info = info_of(file, reader);
   }
-  progress.check();
-  check_layout(*array, entry.order, chosen, progress.part(0, 0.05));
-  fit_to_grid(file, options, chosen);
 
-  Scene scene;
-  progress.step("reading views");
-  ArraySamples read = read_samples(*array, chosen.layout, progress.part(0.05, 0.65));
-  if (settle_range(read.samples, options.levels, scene.convention)) {
-    scene.convention.warnings.push_back(
-        fmt::format(finding_text("samples.disparity"), file.path().filename().string()));
+  Scene read(const Progress& progress) {
+    show_center();
+    progress.check();
+    check_layout(*array_, entry_.order, chosen_, progress.part(0, 0.05));
+    fit_to_grid(file_, options_, chosen_);
+    progress.step("reading views");
+    read_views(progress.part(0.05, 0.65));
+    progress.step("reading maps");
+    read_maps(progress.part(0.65, 0.75));
+    read_others(progress.part(0.75, 0.8));
+    assemble(std::move(parts_), options_, scene_, progress.part(0.8, 1));
+    if (report_.are_axes_unclear && !chosen_.warning.empty()) {
+      report_.warnings.push_back(std::move(chosen_.warning));
+    }
+    return std::move(scene_);
   }
-  if (!read.left_out.empty()) {
-    scene.convention.warnings.push_back(
-        fmt::format(finding_text("samples.fourth"), entry.name, read.left_out));
+
+ private:
+  void show_center() const {
+    if (!options_.on_center_view || array_->is_sequential()) return;
+    const GridShape grid = chosen_.layout.grid();
+    options_.on_center_view(array_preview(*array_, chosen_.layout, grid.center()), parts_.info,
+                            grid);
   }
-  decode_luma_chroma(entry.name, read.samples, scene.convention);
-  progress.step("reading maps");
-  std::vector<const ArrayEntry*> others = arrays_beside(file, entry);
-  std::erase_if(others, [&more](const ArrayEntry* each) { return more.owns && more.owns(*each); });
-  ArrayMaps maps = read_array_maps(file, others, {chosen.layout, entry.order}, options.needs_truth,
-                                   progress.part(0.65, 0.7));
-  std::ranges::move(maps.notes, std::back_inserter(scene.convention.warnings));
-  parts.samples = std::move(read.samples);
-  parts.valid = std::move(read.valid);
-  combine(parts.valid, std::move(maps.valid));
-  parts.truth = std::move(maps.truth);
-  if (chosen.layout.has('n')) {
-    const bool is_row = chosen.layout.has(kSingle) && options.axes.empty();
-    const auto stored = is_row ? std::optional(chosen.layout.grid()) : std::nullopt;
-    arrange_list(file.path(), options, parts, chosen.reason, progress.part(0.7, 0.75), stored);
+  void read_views(const Progress& progress) {
+    ArraySamples read = read_samples(*array_, chosen_.layout, progress);
+    if (settle_range(read.samples, options_.levels, report_)) {
+      report_.warnings.push_back(
+          fmt::format(finding_text("samples.disparity"), file_.path().filename().string()));
+    }
+    if (!read.left_out.empty()) {
+      report_.warnings.push_back(
+          fmt::format(finding_text("samples.fourth"), entry_.name, read.left_out));
+    }
+    decode_luma_chroma(entry_.name, read.samples, report_);
+    parts_.samples = std::move(read.samples);
+    parts_.valid = std::move(read.valid);
   }
-  settle_disparity(parts.samples, maps, parts.truth.field, scene.convention);
-  if (!parts.truth.field.empty()) note_truth_file(file, maps.disparity_name, scene.convention);
-  report_form(file, entry, chosen, scene.convention);
-  parts.files = std::move(maps.uses);
-  parts.files.insert(parts.files.begin(), {"light field", 1, entry.name, true});
-  parts.expected.is_truth_sign_assumed = maps.is_sign_assumed;
-  parts.expected.reason = finding_text("order.of_arrays");
-  if (more.add) more.add(parts, scene.convention, progress.part(0.75, 0.8));
-  if (parts.truth.field.empty() && !more.is_in_memory && !fs::is_directory(file.path())) {
-    FileUsage account(file.path());
-    scene.scribbles.labels = add_maps_named_after(
-        file.path(), options, parts, {account, scene.convention}, progress.part(0.75, 0.8));
-    std::ranges::move(account.uses(), std::back_inserter(parts.files));
+  void read_maps(const Progress& progress) {
+    std::vector<const ArrayEntry*> others = arrays_beside(file_, entry_);
+    std::erase_if(others,
+                  [this](const ArrayEntry* each) { return more_.owns && more_.owns(*each); });
+    ArrayMaps maps = read_array_maps(file_, others, {chosen_.layout, entry_.order},
+                                     options_.needs_truth, progress.part(0, 0.5));
+    std::ranges::move(maps.notes, std::back_inserter(report_.warnings));
+    combine(parts_.valid, std::move(maps.valid));
+    parts_.truth = std::move(maps.truth);
+    if (chosen_.layout.has('n')) {
+      const bool is_row = chosen_.layout.has(kSingle) && options_.axes.empty();
+      const auto stored = is_row ? std::optional(chosen_.layout.grid()) : std::nullopt;
+      arrange_list(file_.path(), options_, parts_, chosen_.reason, progress.part(0.5, 1), stored);
+    }
+    settle_disparity(parts_.samples, maps, parts_.truth.field, report_);
+    if (!parts_.truth.field.empty()) note_truth_file(file_, maps.disparity_name, report_);
+    report_form(file_, entry_, chosen_, report_);
+    parts_.files = std::move(maps.uses);
+    parts_.files.insert(parts_.files.begin(), {"light field", 1, entry_.name, true});
+    parts_.expected.is_truth_sign_assumed = maps.is_sign_assumed;
+    parts_.expected.reason = finding_text("order.of_arrays");
   }
-  assemble(std::move(parts), options, scene, progress.part(0.8, 1));
-  if (scene.convention.are_axes_unclear && !chosen.warning.empty()) {
-    scene.convention.warnings.push_back(std::move(chosen.warning));
+  void read_others(const Progress& progress) {
+    if (more_.add) more_.add(parts_, report_, progress);
+    const bool is_alone = !more_.is_in_memory && !fs::is_directory(file_.path());
+    if (!parts_.truth.field.empty() || !is_alone) return;
+    FileUsage account(file_.path());
+    scene_.scribbles.labels =
+        add_maps_named_after(file_.path(), options_, parts_, {account, report_}, progress);
+    std::ranges::move(account.uses(), std::back_inserter(parts_.files));
   }
-  return scene;
-}
+
+  const ArrayFile& file_;
+  const OpenOptions& options_;
+  const OtherArrays& more_;
+  const ArrayEntry& entry_;
+  ChosenLayout chosen_;
+  std::unique_ptr<ArrayInput> array_;
+  SceneParts parts_;
+  Scene scene_;
+  ConventionReport& report_ = scene_.convention;
+};
 
 /// Keys of the reading options that every reader of arrays knows.
 std::span<const char* const> array_options() {
@@ -389,10 +421,10 @@ Scene read_array_scene(const ArrayFile& file, const char* reader, const OpenOpti
                       file.path().string(), options.frame));
     }
     const auto colored = with_stacked_channels(file, options);
-    return read_single(colored ? *colored : file, reader, options, progress, more);
+    return SingleReading(colored ? *colored : file, reader, options, more).read(progress);
   }
   const int index = several->index(file, options);
-  Scene scene = read_single(*several->one(file, index), reader, options, progress, {});
+  Scene scene = SingleReading(*several->one(file, index), reader, options, {}).read(progress);
   if (!several->is_named(options)) scene.sequence = {index, several->count()};
   scene.convention.warnings.insert(scene.convention.warnings.begin(), several->text(index));
   return scene;

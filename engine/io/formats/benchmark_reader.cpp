@@ -338,89 +338,134 @@ bool is_benchmark_folder(const fs::path& folder, const OpenOptions& options) {
   return count > 0 && (side * side == count || !options.grid.empty());
 }
 
-Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const Progress& progress) {
-  FileUsage account(folder);
-  std::optional<ConfigFile> config;
-  if (is_there(folder / kBenchmarkConfig)) config.emplace(folder / kBenchmarkConfig);
-  const std::optional<GridShape> given = given_grid(options);
-  BenchmarkViews found = benchmark_views(folder, config, given);
-  ViewFiles& views = found.views;
-  account.add_folder(views.files.front().parent_path());
-  Scene scene;
-  ConventionReport& report = scene.convention;
-  report.format = "2016 benchmark folder";
-  if (!found.gaps.empty()) report.warnings.push_back(found.gaps);
-  if (!config && !given) {
-    report.warnings.push_back(
-        fmt::format(finding_text("views.no_config"), views.grid.v, views.grid.u));
-  }
-  LightFieldInfo info{scene_name(folder),
-                      folder.string(),
-                      {},
-                      std::nullopt,
-                      {.reader = "benchmark2016", .options = {}}};
-  if (config) {
-    tell_values_without_number(*config, report);
-    info.disparity_range = promised_range(*config, report);
-  }
-  progress.step("reading views");
-  const auto show_center = [&](const Image<std::uint8_t>& center) {
-    if (options.on_center_view) options.on_center_view(center, info, views.grid);
-  };
-  UsableViews usable = load_usable_views(views, show_center, progress.part(0, 0.65));
-  if (usable.kept) {
-    views = std::move(usable.views);
-    report.warnings.push_back(std::move(usable.warning));
-  }
-  LoadedViews pixels = std::move(usable.pixels);
-  LightField::Samples& samples = pixels.samples;
-  if (!given && !views.part && arrange_as_seen(samples, views, report, progress.part(0.65, 0.7))) {
-    pixels = load_views(views, show_center, progress.part(0, 0.7));
-  }
-  account.use(views.files, "views");
-  account.leave_out(views.left_out, kViewsLeftOut);
-  account.leave_out(views.unusable, kUnusableViews);
-  if (config) account.use(folder / kBenchmarkConfig, "parameter files");
-  settle_range(samples, options.levels, report);
-  progress.step("reading ground truth");
-  const ViewSize size = size_of(samples);
-  if (config) {
-    compare_size(*config, size, report);
-    compare_grid(*config, views.whole_grid(), report);
-    info.camera = read_camera(folder, *config, size, report);
-  }
-  GroundTruth truth;
-  const SidecarViews beside_views{views,
-                                  views.files.front().parent_path(),
-                                  samples,
-                                  info.camera,
-                                  options.map_views(),
-                                  options.needs_truth};
-  const SidecarNotes notes{account, report};
-  truth.field = read_benchmark_disparity(folder, beside_views, notes, progress.part(0.7, 0.75));
-  if (truth.field.empty()) {
-    // What other programs call it.
-    SidecarMaps beside = read_sidecar_maps(beside_views, notes, progress.part(0.75, 0.8));
-    truth = std::move(beside.truth);
-    info.camera = beside.camera;
-    scene.scribbles.labels = std::move(beside.label_infos);
-  }
-  correct_promise(truth.field, info.disparity_range, report);
-  if (options.needs_truth) {
-    read_benchmark_masks(folder, beside_views, notes, truth);
-    const auto stated = config ? config->text("scene") : std::nullopt;
-    truth.stratified = stratified_scene(stated.value_or(info.name));
+namespace {
+
+// Reads a folder step by step.
+class BenchmarkReading {
+ public:
+  BenchmarkReading(const fs::path& folder, const OpenOptions& options)
+      : folder_(folder),
+        options_(options),
+        account_(folder),
+        config_(config_of(folder)),
+        given_(given_grid(options)) {}
+
+  Scene read(const Progress& progress) {
+    find_views();
+    begin_info();
+    progress.step("reading views");
+    read_views(progress.part(0, 0.7));
+    progress.step("reading ground truth");
+    compare_config();
+    read_truth(progress.part(0.7, 0.8));
+    assemble_scene(progress.part(0.8, 1));
+    return std::move(scene_);
   }
 
-  SceneParts parts;
-  parts.samples = std::move(samples);
-  parts.valid = std::move(pixels.valid);
-  parts.truth = std::move(truth);
-  parts.info = std::move(info);
-  parts.expected.reason = finding_text("order.of_benchmark");
-  parts.files = account.uses();
-  assemble(std::move(parts), options, scene, progress.part(0.8, 1));
-  return scene;
+ private:
+  static std::optional<ConfigFile> config_of(const fs::path& folder) {
+    if (!is_there(folder / kBenchmarkConfig)) return std::nullopt;
+    return ConfigFile(folder / kBenchmarkConfig);
+  }
+
+  void find_views() {
+    BenchmarkViews found = benchmark_views(folder_, config_, given_);
+    views_ = std::move(found.views);
+    account_.add_folder(views_.files.front().parent_path());
+    report_.format = "2016 benchmark folder";
+    if (!found.gaps.empty()) report_.warnings.push_back(found.gaps);
+    if (!config_ && !given_) {
+      report_.warnings.push_back(
+          fmt::format(finding_text("views.no_config"), views_.grid.v, views_.grid.u));
+    }
+  }
+  void begin_info() {
+    info_ = {scene_name(folder_),
+             folder_.string(),
+             {},
+             std::nullopt,
+             {.reader = "benchmark2016", .options = {}}};
+    if (!config_) return;
+    tell_values_without_number(*config_, report_);
+    info_.disparity_range = promised_range(*config_, report_);
+  }
+  void read_views(const Progress& progress) {
+    const auto show_center = [this](const Image<std::uint8_t>& center) {
+      if (options_.on_center_view) options_.on_center_view(center, info_, views_.grid);
+    };
+    UsableViews usable = load_usable_views(views_, show_center, progress.part(0, 0.9));
+    if (usable.kept) {
+      views_ = std::move(usable.views);
+      report_.warnings.push_back(std::move(usable.warning));
+    }
+    pixels_ = std::move(usable.pixels);
+    if (!given_ && !views_.part &&
+        arrange_as_seen(pixels_.samples, views_, report_, progress.part(0.9, 1))) {
+      pixels_ = load_views(views_, show_center, progress);
+    }
+    account_.use(views_.files, "views");
+    account_.leave_out(views_.left_out, kViewsLeftOut);
+    account_.leave_out(views_.unusable, kUnusableViews);
+    if (config_) account_.use(folder_ / kBenchmarkConfig, "parameter files");
+    settle_range(pixels_.samples, options_.levels, report_);
+  }
+  void compare_config() {
+    if (!config_) return;
+    const ViewSize size = size_of(pixels_.samples);
+    compare_size(*config_, size, report_);
+    compare_grid(*config_, views_.whole_grid(), report_);
+    info_.camera = read_camera(folder_, *config_, size, report_);
+  }
+  void read_truth(const Progress& progress) {
+    const SidecarViews beside_views{views_,
+                                    views_.files.front().parent_path(),
+                                    pixels_.samples,
+                                    info_.camera,
+                                    options_.map_views(),
+                                    options_.needs_truth};
+    const SidecarNotes notes{account_, report_};
+    truth_.field = read_benchmark_disparity(folder_, beside_views, notes, progress.part(0, 0.5));
+    if (truth_.field.empty()) {
+      // What other programs call it.
+      SidecarMaps beside = read_sidecar_maps(beside_views, notes, progress.part(0.5, 1));
+      truth_ = std::move(beside.truth);
+      info_.camera = beside.camera;
+      scene_.scribbles.labels = std::move(beside.label_infos);
+    }
+    correct_promise(truth_.field, info_.disparity_range, report_);
+    if (!options_.needs_truth) return;
+    read_benchmark_masks(folder_, beside_views, notes, truth_);
+    const auto stated = config_ ? config_->text("scene") : std::nullopt;
+    truth_.stratified = stratified_scene(stated.value_or(info_.name));
+  }
+  void assemble_scene(const Progress& progress) {
+    SceneParts parts;
+    parts.samples = std::move(pixels_.samples);
+    parts.valid = std::move(pixels_.valid);
+    parts.truth = std::move(truth_);
+    parts.info = std::move(info_);
+    parts.expected.reason = finding_text("order.of_benchmark");
+    parts.files = account_.uses();
+    assemble(std::move(parts), options_, scene_, progress);
+  }
+
+  const fs::path& folder_;
+  const OpenOptions& options_;
+  FileUsage account_;
+  std::optional<ConfigFile> config_;
+  std::optional<GridShape> given_;
+  Scene scene_;
+  ConventionReport& report_ = scene_.convention;
+  LightFieldInfo info_;
+  ViewFiles views_;
+  LoadedViews pixels_;
+  GroundTruth truth_;
+};
+
+}  // namespace
+
+Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const Progress& progress) {
+  return BenchmarkReading(folder, options).read(progress);
 }
 
 fs::path find_benchmark(const fs::path& path, const OpenOptions& options) {

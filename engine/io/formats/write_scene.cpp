@@ -305,6 +305,47 @@ std::uintmax_t label_bytes(const Scene& scene) {
   return labels + painted + (1 << 16);  // deflated
 }
 
+void write_stated(Hdf5Output& file, const StatedFacts& stated) {
+  const std::pair<const char*, const std::string&> texts[] = {
+      {kOrigin, stated.origin}, {kSamples, stated.samples}, {kSign, stated.sign}};
+  for (const auto& [name, text] : texts) {
+    if (!text.empty()) file.set_text("/", name, text);
+  }
+}
+
+// All layers as depth, and as disparity if that is wanted.
+void write_truth(Hdf5Output& file, const Scene& scene, const CameraGrid& camera, bool has_disparity,
+                 const Progress& progress) {
+  const GroundTruth& truth = *scene.truth;
+  const std::pair<const char*, const DisparityField*> fields[] = {
+      {"", &truth.field}, {"_FOREGROUND", &truth.foreground}, {"_BACKGROUND", &truth.background}};
+  double done = 0;
+  for (const auto& [layer, field] : fields) {
+    progress.check();
+    const std::string depth = std::string(kTrueDepth) + layer;
+    const std::string disparity = std::string(kTrueDisparity) + layer;
+    write_depth(file, depth, *field, scene, camera, progress.part(done, done + 0.25));
+    if (has_disparity) {
+      write_true_disparity(file, disparity, *field, *scene.light_field,
+                           progress.part(done + 0.25, done + 0.33));
+    }
+    for (const std::string& name : {depth, disparity}) {
+      if (truth.estimated && file.has(name)) write_estimated(file, name, *truth.estimated);
+    }
+    done += 0.33;
+  }
+}
+
+// Beside the archive `of`; nothing is there before commit().
+void write_label_file(AtomicFile& target, const std::filesystem::path& of, const Scene& scene,
+                      const Progress& progress) {
+  Hdf5Output file(target);
+  file.set_text("/", "light_field", of.filename().string());
+  file.set_text("/", kConvention, kConventionText);
+  write_labels(file, scene, progress);
+  file.close();
+}
+
 }  // namespace
 
 std::filesystem::path labels_place(const std::filesystem::path& path, const Scene& scene,
@@ -322,48 +363,22 @@ void write_archive(const std::filesystem::path& path, const Scene& scene, const 
   const std::filesystem::path place = labels_place(path, scene, form.labels);
   const bool is_inside = !place.empty() && place == path;
   const bool is_apart = !place.empty() && !is_inside;
-  const GroundTruth& truth = *scene.truth;
   const CameraGrid camera = camera_for(scene);
 
   const std::uintmax_t label_room = is_inside ? label_bytes(scene) : 0;
   AtomicFile target(path, archive_bytes(scene, form.has_disparity) + label_room);
   Hdf5Output file(target);
   write_attributes(file, scene, camera);
-  const StatedFacts& stated = scene.convention.stated;
-  const std::pair<const char*, const std::string&> texts[] = {
-      {kOrigin, stated.origin}, {kSamples, stated.samples}, {kSign, stated.sign}};
-  for (const auto& [name, text] : texts) {
-    if (!text.empty()) file.set_text("/", name, text);
-  }
+  write_stated(file, scene.convention.stated);
   write_light_field(file, *scene.light_field, progress.part(0, 0.6));
-  const std::pair<const char*, const DisparityField*> fields[] = {
-      {"", &truth.field}, {"_FOREGROUND", &truth.foreground}, {"_BACKGROUND", &truth.background}};
-  double done = 0.6;
-  for (const auto& [layer, field] : fields) {
-    progress.check();
-    const std::string depth = std::string(kTrueDepth) + layer;
-    const std::string disparity = std::string(kTrueDisparity) + layer;
-    write_depth(file, depth, *field, scene, camera, progress.part(done, done + 0.06));
-    if (form.has_disparity) {
-      write_true_disparity(file, disparity, *field, *scene.light_field,
-                           progress.part(done + 0.06, done + 0.08));
-    }
-    for (const std::string& name : {depth, disparity}) {
-      if (truth.estimated && file.has(name)) write_estimated(file, name, *truth.estimated);
-    }
-    done += 0.08;
-  }
+  write_truth(file, scene, camera, form.has_disparity, progress.part(0.6, 0.84));
   write_masks(file, scene, progress.part(0.84, 0.86));
   if (is_inside) write_labels(file, scene, progress.part(0.86, 0.95));
   file.close();
 
   if (is_apart) {
     AtomicFile label_target(beside, label_bytes(scene));
-    Hdf5Output file_of_labels(label_target);
-    file_of_labels.set_text("/", "light_field", path.filename().string());
-    file_of_labels.set_text("/", kConvention, kConventionText);
-    write_labels(file_of_labels, scene, progress.part(0.86, 0.95));
-    file_of_labels.close();
+    write_label_file(label_target, path, scene, progress.part(0.86, 0.95));
     progress.check();
     FormerFile former(path);
     target.commit();
