@@ -257,6 +257,7 @@ Scene read_image_grid(const fs::path& folder, const OpenOptions& options, const 
   parts.info = std::move(info);
   parts.expected.reason = evidence.empty() ? finding_text("order.of_names") : evidence;
   if (grid.poses.are_used()) parts.expected.reason = finding_text("order.of_poses");
+  parts.expected.is_of_poses = grid.poses.are_used();
   parts.files = account.uses();
   assemble(std::move(parts), options, scene, progress.part(0.8, 1));
   if (!evidence.empty() && !report.order_check.ends_with(evidence)) {
