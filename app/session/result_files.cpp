@@ -324,8 +324,49 @@ std::string better_reading_text(const io::BetterReading& found) {
   return better_reading_finding(found) + remedy + map_options_text(found.reading);
 }
 
+namespace {
+
+/// MSE×100 over the pixels that both hold; NaN if there are none.
+double mse_100(const DisparityView& map, const DisparityView& truth) {
+  double sum = 0, count = 0;
+  for (int y = 0; y < truth.disparity.height; ++y) {
+    for (int x = 0; x < truth.disparity.width; ++x) {
+      if (!truth.is_valid(y, x) || !map.is_valid(y, x)) continue;
+      const double error = map.disparity.at(y, x) - truth.disparity.at(y, x);
+      sum += error * error;
+      ++count;
+    }
+  }
+  return 100 * sum / count;
+}
+
+/// Whether maps of all views have rows and columns of views exchanged, by the true view that is
+/// farthest from the diagonal of the grid.
+std::string exchanged_views_text(const Estimate& estimate, const Scene& scene) {
+  constexpr double kFarBetter = 0.5;
+  const DisparityField& maps = estimate.field;
+  const DisparityField& truth = scene.truth->field;
+  if (maps.empty() || !compared_view(estimate, scene)) return {};
+  ViewIndex at;
+  for (int i = 0; i < maps.disparity.grid().count(); ++i) {
+    const ViewIndex view = maps.disparity.view_at(i), other{view.u, view.v};
+    const bool is_farther = std::abs(view.v - view.u) > std::abs(at.v - at.u);
+    if (is_farther && maps.contains(other) && truth.contains(view)) at = view;
+  }
+  if (at.v == at.u) return {};
+  const ViewIndex other{at.u, at.v};
+  const double own = mse_100(maps.view(at), truth.view(at));
+  const double exchanged = mse_100(maps.view(other), truth.view(at));
+  if (!(exchanged < kFarBetter * own)) return {};
+  return fmt::format(finding_text("map.views_exchanged"), view_text(at), own, view_text(other),
+                     exchanged);
+}
+
+}  // namespace
+
 std::string doubt_text(const std::optional<io::BetterReading>& better, const Estimate& estimate,
                        const Scene& scene) {
+  if (std::string text = exchanged_views_text(estimate, scene); !text.empty()) return text;
   return better ? better_reading_text(*better) : poor_fit_text(estimate, scene);
 }
 

@@ -4,6 +4,7 @@
 #include "engine/core/error.h"
 #include "engine/core/numbers.h"
 #include "engine/io/base/image_header.h"
+#include "engine/io/base/quiet_decoding.h"
 
 #include <fmt/format.h>
 #include <opencv2/calib3d.hpp>
@@ -284,6 +285,7 @@ bool leave_out_misfit(std::vector<PatternPhotograph>& photographs) {
 }
 
 cv::Mat read_gray(const std::filesystem::path& file) {
+  const io::QuietDecoding quiet;
   cv::Mat gray;
   io::require_plausible_picture(file);
   try {

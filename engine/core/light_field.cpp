@@ -382,6 +382,8 @@ ViewPlaces view_places(const LightFieldInfo& info, GridShape grid) {
   }
   Coordinate x(grid, std::move(xs)), y(grid, std::move(ys));
   result.kind = PlacesKind::Implausible;
+  const double ratio = std::abs(y.along_v / x.along_u);
+  if (grid.v > 1 && grid.u > 1 && std::isfinite(ratio) && ratio > 0) result.row_step = ratio;
   if (!is_grid(x, y, grid)) return result;
   const auto unit = [&](double along) {
     return std::copysign(grid.u > 1 ? x.along_u : y.along_v, along);

@@ -191,6 +191,8 @@ struct ViewPlaces {
   std::vector<ViewPlace> places;  ///< View by view in canonical order; empty unless irregular.
   double largest_deviation = 0;   ///< From the regular grid about the center view, in steps.
   int outliers = 0;               ///< Positions not believed and replaced by the place in the grid.
+  /// Distance of rows in distances of columns; 1 if there are no two of either.
+  double row_step = 1;
 };
 
 /// Turns stated positions into places. The step is the mean distance of neighbors along u (least

@@ -8,6 +8,7 @@
 #include "engine/io/base/atomic_file.h"
 #include "engine/io/base/exchange_files.h"
 #include "engine/io/base/json.h"
+#include "engine/io/base/quiet_decoding.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -113,6 +114,7 @@ const ProcessedPicture* shown_picture(const ProcessedContainer& container) {
 
 LightField::Samples decoded_picture(const fs::path& path,
                                     const std::vector<std::uint8_t>& encoded) {
+  const io::QuietDecoding quiet;
   cv::Mat bgr;
   try {
     bgr = cv::imdecode(encoded, cv::IMREAD_COLOR);

@@ -207,6 +207,31 @@ std::optional<float> value_of(std::string_view cell) {
   return number ? std::optional(static_cast<float>(*number)) : std::nullopt;
 }
 
+/// Whether cells from number `from` on are 0, 1, 2, ….
+bool count_up(const std::vector<std::string_view>& cells, std::size_t from) {
+  for (std::size_t i = from; i < cells.size(); ++i) {
+    if (value_of(cells[i]) != static_cast<float>(i - from)) return false;
+  }
+  return true;
+}
+
+/// What a first line of a table says of its columns.
+struct ColumnNames {
+  bool are_there = false;  ///< It is a line of names, or numbers columns from 0.
+  bool has_index = false;  ///< The first column numbers the rows.
+};
+
+ColumnNames column_names(const std::vector<std::string_view>& cells) {
+  if (cells.size() < kFewestNumbers) return {};
+  const bool begins_unlike = cells.front().empty() || !value_of(cells.front());
+  const bool are_words =
+      begins_unlike && std::none_of(cells.begin() + 1, cells.end(),
+                                    [](auto cell) { return value_of(cell).has_value(); });
+  const bool are_numbered = begins_unlike && count_up(cells, 1);
+  return {are_words || are_numbered || count_up(cells, 0),
+          are_numbered || (are_words && cells.front().empty())};
+}
+
 bool is_left_out(std::string_view line) {
   return line.empty() || line.front() == '#' || line.front() == '%';
 }
@@ -219,7 +244,7 @@ std::size_t append_row(const std::filesystem::path& path, std::string_view line,
     const auto value = value_of(cell);
     if (!value) {
       throw IoError(path, fmt::format("line {} holds '{}', which is no number; a map is numbers "
-                                      "alone, without names of rows or columns",
+                                      "alone, below at most a line of names of columns",
                                       number, cell.substr(0, 40)));
     }
     values.push_back(*value);
@@ -240,18 +265,32 @@ bool is_text_map(const std::filesystem::path& path) {
   std::string begin(kLongestLine, '\0');
   in.read(begin.data(), static_cast<std::streamsize>(begin.size()));
   begin.resize(static_cast<std::size_t>(in.gcount()));
-  for (std::size_t at = 0; at < begin.size();) {
+  for (std::size_t at = 0, lines = 0; at < begin.size();) {
     const std::size_t end = std::min(begin.find('\n', at), begin.size());
     const std::string_view line = trimmed(std::string_view(begin).substr(at, end - at));
     at = end + 1;
     if (is_left_out(line)) continue;
     const auto cells = cells_of(line, separators_of(line));
+    if (lines++ == 0 && column_names(cells).are_there) continue;
     return cells.size() >= kFewestNumbers && std::ranges::all_of(cells, [](std::string_view cell) {
              return value_of(cell).has_value();
            });
   }
   return false;
 }
+
+namespace {
+
+/// Whether the first column of a map numbers its rows from 0, as no disparity does.
+bool begins_with_index(const std::vector<float>& values, std::size_t width, std::size_t height) {
+  bool counts = height >= kFewestNumbers && width > kFewestNumbers;
+  for (std::size_t y = 0; counts && y < height; ++y) {
+    counts = values[y * width] == static_cast<float>(y);
+  }
+  return counts;
+}
+
+}  // namespace
 
 Image<float> read_text_map(const std::filesystem::path& path) {
   require_readable_file(path);
@@ -260,7 +299,8 @@ Image<float> read_text_map(const std::filesystem::path& path) {
   }
   std::ifstream in(path);
   std::vector<float> values;
-  std::size_t width = 0, height = 0, number = 0;
+  std::size_t width = 0, height = 0, number = 0, number_of_first = 0;
+  ColumnNames names;
   for (std::string line; std::getline(in, line);) {
     ++number;
     const std::string_view text = trimmed(line);
@@ -269,6 +309,11 @@ Image<float> read_text_map(const std::filesystem::path& path) {
       throw IoError(path, fmt::format("line {} is longer than a row of numbers can be; choose "
                                       "another file",
                                       number));
+    }
+    if (number_of_first == 0) {
+      number_of_first = number;
+      names = column_names(cells_of(text, separators_of(text)));
+      if (names.are_there) continue;
     }
     const std::size_t count = append_row(path, text, number, values);
     if (height++ == 0) width = count;
@@ -279,8 +324,11 @@ Image<float> read_text_map(const std::filesystem::path& path) {
     }
   }
   if (values.empty()) throw IoError(path, "holds no rows of numbers; export the map again");
-  Image<float> map(static_cast<int>(height), static_cast<int>(width));
-  std::ranges::copy(values, map.data());
+  const std::size_t left = names.has_index || begins_with_index(values, width, height) ? 1 : 0;
+  Image<float> map(static_cast<int>(height), static_cast<int>(width - left));
+  for (std::size_t y = 0; y < height; ++y) {
+    std::copy_n(values.data() + y * width + left, width - left, map.row(static_cast<int>(y)));
+  }
   return map;
 }
 

@@ -146,8 +146,10 @@ std::string Hdf5Input::fault_of(const std::string& name) const {
   if (!holds_own_samples(dataset)) return "has its samples in other files, which are not read";
   const Hdf5Handle space(H5Dget_space(dataset), H5Sclose);
   if (H5Sget_simple_extent_npoints(space) == 0) return "is empty";
-  const bool has_numbers = describe_dataset(dataset, name).type != Hdf5Type::Other;
-  return has_numbers ? "" : "holds no numbers";
+  if (describe_dataset(dataset, name).type != Hdf5Type::Other) return {};
+  const Hdf5Handle type(H5Dget_type(dataset), H5Tclose);
+  return H5Tget_class(type) == H5T_COMPOUND ? "holds records of several fields (compound)"
+                                            : "holds no numbers";
 }
 
 bool Hdf5Input::has_numbers(const std::string& name) const {
@@ -161,7 +163,9 @@ std::vector<Hdf5Dataset> Hdf5Input::datasets() const {
 
 Hdf5Dataset Hdf5Input::dataset(const std::string& name, const std::string& advice) const {
   if (!has(name)) {
-    const std::string held = joined(datasets(), ", ", &Hdf5Dataset::name);
+    const std::string held = joined(datasets(), ", ", [this](const Hdf5Dataset& one) {
+      return one.type == Hdf5Type::Other ? one.name + " (it " + fault_of(one.name) + ")" : one.name;
+    });
     throw IoError(path_, "there is no dataset " + name + " in this file, which holds " +
                              (held.empty() ? "no dataset at all; choose another file"
                                            : held + "; " + advice));

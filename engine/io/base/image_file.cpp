@@ -4,12 +4,13 @@
 #include "engine/core/error.h"
 #include "engine/io/base/atomic_file.h"
 #include "engine/io/base/files.h"
+#include "engine/io/base/quiet_decoding.h"
 #include "engine/io/base/radiance.h"
+#include "engine/io/base/tiff_file.h"
 
 #include <fmt/format.h>
 #include <png.h>
 #include <zlib.h>
-#include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgcodecs.hpp>
 
 #include <bit>
@@ -95,6 +96,18 @@ bool is_animated_webp(const fs::path& path) {
          (file.number(20, 1, false) & kAnimation) != 0;
 }
 
+/// "floats of 16 bits", of a TIFF file whose samples are not decoded; else empty.
+std::string unread_tiff_samples(const fs::path& path) {
+  constexpr std::uint64_t kBits = 258, kFormat = 339, kFloats = 3;
+  TiffFile file(path);
+  const auto bits = file.tag(kBits);
+  const auto format = file.tag(kFormat);
+  const bool is_float = format && format->number == kFloats;
+  const bool is_unread = bits && (is_float ? bits->number < 32 : bits->number > 16);
+  if (!is_unread) return {};
+  return fmt::format("{} of {} bits", is_float ? "floats" : "integers", bits->number);
+}
+
 [[noreturn]] void refuse_image(const fs::path& path) {
   if (fs::file_size(path) == 0) {
     throw IoError(path, kEmptyFile);
@@ -103,6 +116,10 @@ bool is_animated_webp(const fs::path& path) {
     throw IoError(path,
                   "animated WebP files are not read; save the pictures as PNG files in a folder, "
                   "or as an animated PNG");
+  }
+  if (const std::string samples = unread_tiff_samples(path); !samples.empty()) {
+    throw IoError(path, "TIFF files of " + samples +
+                            " are not read; save it as 32-bit float, or as 8 or 16 bits");
   }
   throw IoError(path,
                 "the image cannot be decoded: it is damaged or its format does not match its name; "
@@ -150,9 +167,16 @@ DecodedMat in_display(const fs::path& path, const cv::Mat& stored, const ExrPict
   return {picture, seen};
 }
 
+/// Samples as they are read: others than 8 or 16 bits without a sign become floats.
+cv::Mat in_read_type(cv::Mat decoded) {
+  const int depth = decoded.depth();
+  if (depth != CV_8U && depth != CV_16U) decoded.convertTo(decoded, CV_32F);
+  return decoded;
+}
+
 DecodedMat read_mat(const fs::path& path, PicturePart part) {
   allow_openexr();
-  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+  const QuietDecoding quiet;
   const auto exr = read_exr(path, part);
   cv::Mat decoded;
   try {
@@ -163,16 +187,14 @@ DecodedMat read_mat(const fs::path& path, PicturePart part) {
     decoded.release();
   }
   if (decoded.empty()) refuse_image(path);
+  decoded = in_read_type(decoded);
   return exr ? in_display(path, decoded, *exr, part) : DecodedMat{decoded};
 }
 
-AnyImage image_of(const fs::path& path, const cv::Mat& decoded) {
+AnyImage image_of(const cv::Mat& decoded) {
   if (decoded.depth() == CV_8U) return copy_rgb<std::uint8_t>(decoded);
   if (decoded.depth() == CV_16U) return copy_rgb<std::uint16_t>(decoded);
-  if (decoded.depth() == CV_32F) return copy_rgb<float>(decoded);
-  throw IoError(path,
-                "the image has neither 8-bit, 16-bit nor 32-bit float samples; export it again in "
-                "one of these formats");
+  return copy_rgb<float>(decoded);
 }
 
 /// 1 where the last of 2 or 4 channels is not 0; empty if there is no such channel.
@@ -217,13 +239,13 @@ AnyImage decode_image(const fs::path& path, PicturePart part) {
   require_plausible_picture(path);
   if (has_radiance_signature(path)) return decode_radiance(path);
   require_whole_jpeg(path);
-  return image_of(path, read_mat(path, part).pixels);
+  return image_of(read_mat(path, part).pixels);
 }
 
 std::vector<SeenImage> decode_pages(const fs::path& path, int count) {
   require_readable_file(path);
   require_plausible_picture(path);
-  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+  const QuietDecoding quiet;
   std::vector<cv::Mat> decoded;
   try {
     if (!cv::imreadmulti(path.string(), decoded, 0, count, cv::IMREAD_UNCHANGED)) decoded.clear();
@@ -233,7 +255,8 @@ std::vector<SeenImage> decode_pages(const fs::path& path, int count) {
   if (static_cast<int>(decoded.size()) != count) refuse_image(path);
   std::vector<SeenImage> pages;
   for (cv::Mat& page : decoded) {
-    pages.push_back({image_of(path, page), seen_in({page})});
+    page = in_read_type(page);
+    pages.push_back({image_of(page), seen_in({page})});
     page.release();
   }
   return pages;
@@ -550,7 +573,7 @@ SeenImage decode_seen(const fs::path& path) {
   if (has_radiance_signature(path)) return {decode_radiance(path)};
   require_whole_jpeg(path);
   const DecodedMat decoded = read_mat(path, PicturePart::Colors);
-  SeenImage read{image_of(path, decoded.pixels), seen_in(decoded)};
+  SeenImage read{image_of(decoded.pixels), seen_in(decoded)};
   settle_levels(path, read.image);
   return read;
 }

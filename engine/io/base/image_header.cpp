@@ -80,7 +80,7 @@ ImageHeader pnm_header(FileBytes& file, int channels, bool is_plain) {
 ImageHeader tiff_header(const std::filesystem::path& path) {
   constexpr std::uint64_t kWidth = 256, kHeight = 257, kBits = 258, kOrientation = 274,
                           kPhotometric = 262, kChannels = 277, kFormat = 339;
-  constexpr std::uint32_t kFloats = 3;
+  constexpr std::uint32_t kUnsigned = 1;
   TiffFile file(path);
   const auto number = [&](std::uint64_t tag, std::uint32_t otherwise) {
     const auto value = file.tag(tag);
@@ -88,7 +88,8 @@ ImageHeader tiff_header(const std::filesystem::path& path) {
   };
   ImageHeader header{
       length(number(kHeight, 0)), length(number(kWidth, 0)), number(kChannels, 1) < 3 ? 1 : 3,
-      number(kFormat, 1) == kFloats ? SampleType::Float32 : of_bits(number(kBits, 8))};
+      number(kFormat, kUnsigned) == kUnsigned && number(kBits, 8) <= 16 ? of_bits(number(kBits, 8))
+                                                                        : SampleType::Float32};
   header.is_white_zero = number(kPhotometric, 1) == 0;
   const std::uint32_t orientation = number(kOrientation, 1);
   const bool is_turned = orientation >= 5 && orientation <= 8;  // decoded upright

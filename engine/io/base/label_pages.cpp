@@ -6,11 +6,11 @@
 #include "engine/io/base/array_input.h"
 #include "engine/io/base/atomic_file.h"
 #include "engine/io/base/files.h"
+#include "engine/io/base/quiet_decoding.h"
 #include "engine/io/base/tiff_file.h"
 
 #include <fmt/format.h>
 #include <png.h>
-#include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgcodecs.hpp>
 
 #include <algorithm>
@@ -127,7 +127,7 @@ cv::Mat TiffPages::decode(std::uint64_t directory, const PageForm& form) {
   if (form.bits > 16) changed[kSampleFormat] = entry(kSampleFormat, kFloat);
   if (!form.palette.empty()) changed[kPhotometric] = entry(kPhotometric, kBlackIsZero);
   begin_with(directory, std::move(changed));
-  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+  const QuietDecoding quiet;
   cv::Mat decoded;
   try {
     const cv::Mat whole(1, static_cast<int>(bytes_.size()), CV_8U, bytes_.data());
@@ -247,7 +247,7 @@ std::vector<LabelPicture> decode_label_pages(const fs::path& path) {
 }
 
 Image<std::uint8_t> decode_mask(const fs::path& path, const std::string& png) {
-  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+  const QuietDecoding quiet;
   cv::Mat decoded;
   try {
     const std::vector<char> bytes(png.begin(), png.end());

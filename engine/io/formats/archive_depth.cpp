@@ -599,7 +599,8 @@ ArchiveLayout archive_layout(const Hdf5Input& file) {
                                            shape.size(), shape_text(shape)));
   }
   if (dataset.type == Hdf5Type::Other) {
-    throw IoError(file.path(), "the dataset LF holds no numbers; choose another file");
+    throw IoError(file.path(), "the dataset LF " + file.fault_of(kArchiveLightField) +
+                                   "; store numbers alone, each field as a dataset of its own");
   }
   const auto is_odd = [](std::size_t length) { return length == 0 || length > 100000; };
   if (std::any_of(shape.begin(), shape.end(), is_odd)) {

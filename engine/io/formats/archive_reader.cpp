@@ -21,6 +21,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <functional>
 #include <optional>
@@ -46,6 +47,19 @@ void read_positions(const Hdf5Input& file, GridShape grid, LightFieldInfo& info)
     info.positions.push_back({values[i], values[i + 1]});
   }
   info.position_unit = file.text("/", kPositionUnit).value_or("");
+}
+
+/// Positions by the distances of cameras side by side and one above the other, if they differ.
+void add_positions(const Hdf5Input& file, GridShape grid, LightFieldInfo& info) {
+  if (!info.positions.empty()) return;
+  const double across = read_camera(file).baseline;
+  const auto at_root = file.number("/", "dV");
+  const double down = (at_root ? at_root : file.number("LF", "dV")).value_or(across);
+  if (!(across > 0) || !(down > 0) || !std::isfinite(down) || down == across) return;
+  for (int i = 0; i < grid.count(); ++i) {
+    const ViewIndex view = grid.view_at(i);
+    info.positions.push_back({across * view.u, down * view.v});
+  }
 }
 
 /// The mask of valid pixels as stored; empty if there is none.
@@ -339,6 +353,7 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
                       {.reader = kArchiveReader, .options = {}}};
 
   read_positions(file, grid, info);
+  add_positions(file, grid, info);
   progress.step("reading views");
   LightField::Samples samples =
       read_archive_samples(file, layout, options, info, progress.part(0, 0.45));

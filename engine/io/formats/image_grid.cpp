@@ -257,6 +257,7 @@ Scene read_image_grid(const fs::path& folder, const OpenOptions& options, const 
   parts.info = std::move(info);
   parts.expected.reason = evidence.empty() ? finding_text("order.of_names") : evidence;
   if (grid.poses.are_used()) parts.expected.reason = finding_text("order.of_poses");
+  parts.expected.is_of_poses = grid.poses.are_used();
   parts.files = account.uses();
   assemble(std::move(parts), options, scene, progress.part(0.8, 1));
   if (!evidence.empty() && !report.order_check.ends_with(evidence)) {
@@ -314,6 +315,12 @@ std::string maps_text(const FoundMapSets& maps, MapKind kind, const char* name) 
 
 }  // namespace
 
+void add_maps_beside(const FoundMapSets& maps, SceneProbe& probe) {
+  if (probe.truth.empty()) probe.truth = maps_text(maps, MapKind::Disparity, "disparity");
+  if (probe.truth.empty()) probe.truth = maps_text(maps, MapKind::Depth, "depth");
+  if (probe.labels.empty()) probe.labels = maps_text(maps, MapKind::Labels, "labels");
+}
+
 SceneProbe probe_views(const ViewFiles& given) {
   const ViewFiles views = look_alike(given) ? given : those_alike(given);
   const ImageHeader header = read_image_header(views.file(views.grid.center()));
@@ -333,10 +340,7 @@ SceneProbe probe_image_grid(const std::filesystem::path& folder, const OpenOptio
     probe.list = placed.views.grid.count();
     probe.grid = given_grid(options).value_or(GridShape());
   }
-  const FoundMapSets maps = find_maps(placed.views, inside);
-  probe.truth = maps_text(maps, MapKind::Disparity, "disparity");
-  if (probe.truth.empty()) probe.truth = maps_text(maps, MapKind::Depth, "depth");
-  probe.labels = maps_text(maps, MapKind::Labels, "labels");
+  add_maps_beside(find_maps(placed.views, inside), probe);
   return probe;
 }
 

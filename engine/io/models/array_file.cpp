@@ -386,7 +386,7 @@ ArrayEntry describe(const Hdf5Input& file, const Hdf5Dataset& dataset, bool is_m
   if (dataset.type == Hdf5Type::Other || matlab_class == "char" || matlab_class == "cell") {
     entry.other_kind = matlab_class == "char"   ? "text"
                        : matlab_class == "cell" ? "cell array"
-                                                : "dataset without numbers";
+                                                : "dataset that " + file.fault_of(dataset.name);
     return entry;
   }
   if (!file.fault_of(dataset.name).empty()) {
@@ -459,7 +459,6 @@ Hdf5Arrays::Hdf5Arrays(std::shared_ptr<const Hdf5Input> file)
 
 bool Hdf5Arrays::add_cells(const Hdf5Dataset& dataset, const std::vector<Hdf5Dataset>& datasets) {
   if (dataset.shape.size() != 2) return false;
-  if (file_->text(dataset.name, "MATLAB_class") != "cell") return false;
   std::vector<ArrayEntry> cells;
   for (const std::string& name : file_->referenced(dataset.name)) {
     const auto cell = std::ranges::find(datasets, name, &Hdf5Dataset::name);

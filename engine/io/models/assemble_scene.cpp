@@ -9,6 +9,7 @@
 #include "engine/io/base/sample_range.h"
 #include "engine/io/models/dark_views.h"
 #include "engine/io/models/load_views.h"
+#include "engine/io/models/order/misplaced_views.h"
 #include "engine/io/models/order/truth_views.h"
 #include "engine/io/models/order/view_axes.h"
 #include "engine/io/models/order/warp_check.h"
@@ -337,6 +338,20 @@ void keep_what_was_seen(SceneParts& parts, const OpenOptions& options, Conventio
   if (is_whole) parts.valid = {};
 }
 
+/// Says whether rows of cameras are farther apart than columns, and which views do not fit their
+/// neighbors.
+void tell_what_is_misplaced(const SceneParts& parts, ConventionReport& report,
+                            const Progress& progress) {
+  constexpr double kEqual = 0.05;
+  const GridShape grid = grid_of(parts.samples);
+  const double step = view_places(parts.info, grid).row_step;
+  if (std::max(step, 1 / step) > 1 + kEqual) {
+    report.warnings.push_back(fmt::format(finding_text("camera.unequal"), step, grid.u));
+  }
+  if (is_mapped(parts.samples)) return;
+  append(report.warnings, find_misplaced_views(parts.samples, progress));
+}
+
 }  // namespace
 
 void assemble(SceneParts parts, const OpenOptions& options, Scene& scene,
@@ -346,7 +361,8 @@ void assemble(SceneParts parts, const OpenOptions& options, Scene& scene,
   show_epis(parts.samples, options);  // in another order, perhaps
   scene.convention.files = std::move(parts.files);
   drop_nonfinite_samples(parts.samples, parts.valid, scene.convention);
-  keep_what_was_seen(parts, options, scene.convention, progress.part(0.3, 0.7));
+  keep_what_was_seen(parts, options, scene.convention, progress.part(0.3, 0.6));
+  tell_what_is_misplaced(parts, scene.convention, progress.part(0.6, 0.7));
   equalize_views(parts, options, scene.convention, progress.part(0.7, 1));
   std::string& samples_text = scene.convention.samples;
   if (samples_text.empty()) samples_text = stored_samples_text(parts.samples);

@@ -314,28 +314,37 @@ Mat5File::Mat5File(const fs::path& path) : ArrayFile(path, "MATLAB 5 file") {
 }
 
 void Mat5File::add_variable(const std::string& name, matvar_t& variable, int depth) {
-  if (variable.class_type == MAT_C_CELL && add_cells(name, variable)) return;
+  const auto cell = [&](int i) { return Mat_VarGetCell(&variable, i); };
+  if (variable.class_type == MAT_C_CELL && add_cells(name, variable, cell)) return;
   add(describe(path(), name, variable));
   content_->name(name, &variable);
   if (variable.class_type != MAT_C_STRUCT || !variable.data || depth == kDeepestStruct) return;
   const unsigned fields = Mat_VarGetNumberOfFields(&variable);
   char* const* names = Mat_VarGetStructFieldnames(&variable);
+  const bool are_many = element_count(stored_shape(variable)) > 1;
   for (unsigned i = 0; names && i < fields; ++i) {
-    matvar_t* field = Mat_VarGetStructFieldByIndex(&variable, i, 0);
+    const auto of_struct = [&](int k) { return Mat_VarGetStructFieldByIndex(&variable, i, k); };
+    const std::string whole = name + "/" + names[i];
+    matvar_t* field = of_struct(0);
     if (!field || field->class_type == MAT_C_EMPTY) continue;
-    add_variable(name + "/" + names[i], *field, depth + 1);
+    if (!are_many) {
+      add_variable(whole, *field, depth + 1);
+    } else if (!add_cells(whole, variable, of_struct)) {
+      add({whole, {}, {}, IndexOrder::Fortran, {}, "field of many structs"});
+    }
   }
 }
 
-bool Mat5File::add_cells(const std::string& name, matvar_t& variable) {
+bool Mat5File::add_cells(const std::string& name, const matvar_t& variable,
+                         const std::function<matvar_t*(int)>& cell) {
   if (variable.rank != 2 || !variable.dims || !variable.data) return false;
   const ArrayShape grid = stored_shape(variable);
   std::vector<ArrayEntry> cells;
   for (std::size_t i = 0; i < std::min(element_count(grid), kMostVariables); ++i) {
-    matvar_t* cell = Mat_VarGetCell(&variable, static_cast<int>(i));
-    if (!cell) return false;
-    cells.push_back(describe(path(), fmt::format("{}{{{}}}", name, i + 1), *cell));
-    content_->name(cells.back().name, cell);
+    matvar_t* one = cell(static_cast<int>(i));
+    if (!one) return false;
+    cells.push_back(describe(path(), fmt::format("{}{{{}}}", name, i + 1), *one));
+    content_->name(cells.back().name, one);
   }
   auto whole = joined_cells(name, cells, grid);
   if (!whole) return false;

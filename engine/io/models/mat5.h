@@ -4,6 +4,7 @@
 #include "engine/io/models/array_file.h"
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -26,9 +27,11 @@ class Mat5File : public ArrayFile {
   [[nodiscard]] std::unique_ptr<ArrayInput> open_stored(const ArrayEntry& entry) const override;
 
   class Content;
-  /// A variable, a field of a struct, or a cell array whose cells are views.
+  /// A variable, a field of a struct, or a cell array or field of many structs that holds views.
   void add_variable(const std::string& name, matvar_t& variable, int depth);
-  [[nodiscard]] bool add_cells(const std::string& name, matvar_t& variable);
+  /// `cell` gives the elements of `variable`, a cell array or an array of structs.
+  [[nodiscard]] bool add_cells(const std::string& name, const matvar_t& variable,
+                               const std::function<matvar_t*(int)>& cell);
 
   std::unique_ptr<Content> content_;
 };

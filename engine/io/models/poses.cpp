@@ -473,8 +473,7 @@ namespace {
 constexpr double kMostOff_steps = 0.1;
 
 /// How cameras of a light field may differ from a plane grid that is exact: orientations by half a
-/// degree, places by a tenth of a step, on the plane and off it, steps of rows and columns by a
-/// tenth.
+/// degree, places by a tenth of a step, on the plane and off it.
 constexpr double kMostTurn_deg = 0.5;
 
 constexpr std::size_t kFewestCameras = 3;
@@ -568,7 +567,10 @@ double likely_step(const std::vector<PlanePlace>& places) {
 
 std::string problem_of(const PoseGrid& grid, const Steps& columns, const Steps& rows, double depth,
                        std::size_t count) {
-  const double off = std::max(columns.off, rows.off) / grid.step;
+  const auto off_along = [&](const Steps& steps) {
+    return steps.off / (steps.step > 0 ? steps.step : grid.step);
+  };
+  const double off = std::max(off_along(columns), off_along(rows));
   if (depth / grid.step > kMostOff_steps) {
     return fmt::format(
         "the cameras do not stand on a plane that they face: they differ by {:.2g} "
@@ -582,11 +584,6 @@ std::string problem_of(const PoseGrid& grid, const Steps& columns, const Steps& 
   }
   if (off > kMostOff_steps) {
     return fmt::format("the cameras are off a grid of equal steps by up to {:.2g} of a step", off);
-  }
-  const bool has_both = columns.step > 0 && rows.step > 0;
-  const double ratio = has_both ? columns.step / rows.step : 1;
-  if (std::abs(ratio - 1) > kMostOff_steps) {
-    return fmt::format("columns are {:.3g} times as far apart as rows", ratio);
   }
   return {};
 }
@@ -627,8 +624,7 @@ PoseGrid find_pose_grid(const std::vector<CameraPose>& poses) {
   const Steps columns = steps_along(places, &PlanePlace::x, gap);
   const Steps rows = steps_along(places, &PlanePlace::y, gap);
   grid.grid = {rows.count, columns.count};
-  grid.step = columns.step > 0 && rows.step > 0 ? (columns.step + rows.step) / 2
-                                                : std::max(columns.step, rows.step);
+  grid.step = columns.step > 0 ? columns.step : rows.step;
   if (!(grid.step > 0))
     return {.problem = "the cameras do not stand in rows and columns of equal steps"};
   const double depth = extent(places, &PlanePlace::z);

@@ -89,15 +89,14 @@ struct PoseGrid {
   GridShape grid{};
   std::vector<std::size_t> order{};         ///< Of the poses, row by row; `kNoCamera` in gaps.
   std::vector<CameraPosition> positions{};  ///< Row by row: right and down in the cameras' view.
-  double step = 0;                          ///< Of neighbors, in units of the scene.
-  double focal_widths = 0;                  ///< 0 = not stated.
-  std::string evidence{};  ///< "cameras in steps of 0.1, turned by 0.01° at most, …".
-  std::string problem{};   ///< Why they are no such grid, as a clause; empty if they are.
+  double step = 0;  ///< Of neighbors in a row, or in the only column, in units of the scene.
+  double focal_widths = 0;  ///< 0 = not stated.
+  std::string evidence{};   ///< "cameras in steps of 0.1, turned by 0.01° at most, …".
+  std::string problem{};    ///< Why they are no such grid, as a clause; empty if they are.
 };
 
 /// Arranges cameras on the grid of a light field: rows and columns along what they see as down and
-/// right. Orientations may differ by 0.5°, places by a tenth of a step, steps of rows and columns
-/// by a tenth. O(N log N).
+/// right. Orientations may differ by 0.5°, places by a tenth of a step. O(N log N).
 [[nodiscard]] PoseGrid find_pose_grid(const std::vector<CameraPose>& poses);
 
 }  // namespace episcope::io

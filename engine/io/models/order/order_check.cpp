@@ -140,6 +140,16 @@ std::string not_checked_text(GridShape grid, bool are_axes_unclear) {
   return std::string(finding_text("order.no_texture"));
 }
 
+/// What views and truth leave open, poses of the cameras tell.
+void follow_poses(const ExpectedOrder& expected, Checked& checked) {
+  if (checked.is_sign_known || !(checked.flip == expected.flip)) return;
+  checked.is_sign_known = true;
+  checked.proves_axes = true;
+  checked.sign_text = finding_text("sign.by_poses");
+  if (!checked.is_decided) checked.text = checked.sign_text;
+  checked.is_decided = true;
+}
+
 ViewFlip chosen_flip(Flip choice) {
   return {choice == Flip::U || choice == Flip::Both, choice == Flip::V || choice == Flip::Both};
 }
@@ -185,6 +195,7 @@ OrderFinding find_order(const LightField::Samples& samples, const std::vector<Or
     }
   }
 
+  if (expected.is_of_poses) follow_poses(expected, checked);
   finding.flip = checked.flip;
   finding.are_axes_unclear = expected.are_axes_unclear && !checked.proves_axes;
   const bool is_checked = checked.is_decided && !finding.are_axes_unclear;

@@ -25,6 +25,8 @@ struct ExpectedOrder {
   bool are_axes_known = false;
   /// The sign of the truth is only assumed: negated, it would fit the opposite order as well.
   bool is_truth_sign_assumed = false;
+  /// Poses of cameras tell the order of views, and so near from far.
+  bool is_of_poses = false;
   /// Motion between views does not tell rows from columns: only truth can check the order.
   bool are_axes_unclear = false;
 };

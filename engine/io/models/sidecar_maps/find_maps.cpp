@@ -383,7 +383,7 @@ class MapsOfFolders {
   void find(const std::vector<MapPlace>& places) {
     if (views_.contains(folder_)) return;
     for (const MapPlace& place : places) {
-      if (!place.scene.empty()) continue;
+      if (place.is_shared) continue;
       for (const auto& [inside, views] : views_) {
         look_into(place, inside.lexically_relative(folder_), views);
       }
@@ -462,7 +462,7 @@ FoundMapSets find_maps(const ViewFiles& views, const fs::path& folder,
     for (const fs::path& file : list_files(place.folder)) {
       if (taken.contains(file) || (own && !own->contains(file))) continue;
       if (!place.may_hold(file)) continue;
-      const bool is_of_scene = own || !place.scene.empty();
+      const bool is_of_scene = own || place.is_called(file);
       const auto kind =
           is_of_other_frame(file, frames) ? std::nullopt : kind_of(file, place, is_of_scene);
       if (!kind) continue;
@@ -482,7 +482,7 @@ FoundMapSets find_maps(const ViewFiles& views, const fs::path& folder,
       found.sets.push_back(std::move(set));
     }
     const bool is_other = place.folder != folder;
-    const bool is_whole = place.scene.empty();  // else files of other scenes are counted
+    const bool is_whole = !place.is_shared;  // else files of other scenes are counted
     if (is_other && is_whole && !groups.empty()) found.folders.push_back(place.folder);
   }
   return found;

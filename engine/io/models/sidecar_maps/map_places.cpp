@@ -95,6 +95,7 @@ std::vector<MapPlace> map_places(const fs::path& folder) {
                !own.contains(place.prefix.substr(0, place.prefix.find('/')));
       });
       around.front().owner = own;
+      for (MapPlace& place : around) place.scene = clean.filename().string();
     }
     add(std::move(around));
     return places;
@@ -103,7 +104,10 @@ std::vector<MapPlace> map_places(const fs::path& folder) {
     places.push_back({clean.parent_path(), std::nullopt});
   }
   std::vector<MapPlace> of_scenes = places_inside(clean.parent_path(), folder);
-  for (MapPlace& place : of_scenes) place.scene = clean.filename().string();
+  for (MapPlace& place : of_scenes) {
+    place.scene = clean.filename().string();
+    place.is_shared = true;
+  }
   add(std::move(of_scenes));
   return places;
 }

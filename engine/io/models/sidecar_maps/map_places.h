@@ -17,14 +17,18 @@ struct MapPlace {
   std::optional<MapKind> kind;
   std::string prefix = {};  ///< Of patterns: "disparity/".
   MapClaim claim = MapClaim::None;
-  std::string scene = {};  ///< Files of this name alone belong to the views; empty = all.
+  std::string scene = {};  ///< What the views are called, where this lies beside their folder.
+  bool is_shared = false;  ///< Only files of that name belong to the views.
   std::optional<SceneFiles> owner = {};  ///< Tells which of its files belong to the views.
   std::vector<std::string> owners = {};  ///< Names of what maps belong to (`name_beside`).
 
+  /// Whether a file is called as the views are.
+  [[nodiscard]] bool is_called(const std::filesystem::path& file) const {
+    return !scene.empty() && file.stem() == scene;
+  }
   /// By its name alone.
   [[nodiscard]] bool may_hold(const std::filesystem::path& file) const {
-    const bool is_of_scene = scene.empty() || file.stem() == scene;
-    return is_of_scene && (!owner || owner->contains(file));
+    return (!is_shared || is_called(file)) && (!owner || owner->contains(file));
   }
 };
 

@@ -358,6 +358,11 @@ void set_aside(std::vector<MapSet>& sets, const SidecarNotes& notes) {
     notes.account.leave_out(set.strays, std::string(kind_text(set.kind)) + " of no view");
     notes.account.leave_out(set.of_left_out,
                             std::string(kind_text(set.kind)) + " of views left out");
+    if (!set.strays.empty()) {
+      notes.report.warnings.push_back(fmt::format(
+          finding_text("map.no_view"), set.strays.size(), set.strays.size() + set.entries.size(),
+          set.pattern, set.strays.front().filename().string()));
+    }
     set.strays.clear();
     std::erase_if(set.entries, [&](const MapSet::Entry& entry) {
       const OwnFile own = own_file(entry.file);

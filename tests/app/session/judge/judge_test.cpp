@@ -129,6 +129,23 @@ class JudgeTest : public QObject {
     QVERIFY(!find_better_reading(right, *scene));
   }
 
+  void exchangedViewsOfAllMaps_areTold() {
+    const auto scene = tiny_scene("objects");
+    const EstimatePtr right = shifted_truth(*scene, 0.01F);
+    Estimate exchanged;
+    exchanged.field.disparity = right->field.disparity.clone();
+    for (int i = 0; i < 9; ++i) {
+      const ViewIndex view = exchanged.field.disparity.view_at(i);
+      const auto from = right->field.disparity.view({view.u, view.v});
+      std::copy_n(from.data, from.size(), exchanged.field.disparity.view(view).data);
+    }
+
+    const QString text = QString::fromStdString(doubt_text(std::nullopt, exchanged, *scene));
+    QVERIFY2(text.contains("against the truth of view 0,2, the map of that view has MSE×100"),
+             qPrintable(text));
+    QCOMPARE(doubt_text(std::nullopt, *right, *scene), std::string());
+  }
+
  private:
   /// Disparity 9 everywhere.
   class FlatTruth : public HighResTruth {

@@ -262,6 +262,32 @@ class Hdf5FormsTest : public QObject {
             2e-6);
   }
 
+  void recordsOfSeveralFields_areNamed_data() {
+    QTest::addColumn<QString>("name");
+    QTest::newRow("LF") << "LF";
+    QTest::newRow("another name") << "lightfield";
+  }
+  void recordsOfSeveralFields_areNamed() {
+    QFETCH(QString, name);
+    const hid_t record = H5Tcreate(H5T_COMPOUND, 2);
+    H5Tinsert(record, "r", 0, H5T_NATIVE_UINT8);
+    H5Tinsert(record, "g", 1, H5T_NATIVE_UINT8);
+    const std::vector<std::uint8_t> samples(2 * 3 * 3 * 8 * 9, 1);
+    HandMadeFile(path()).dataset(qPrintable(name), record, record, {3, 3, 8, 9}, {},
+                                 samples.data());
+    H5Tclose(record);
+    std::string told;
+
+    try {
+      (void)io::open_scene(path(), {}, Progress(1));
+    } catch (const IoError& error) {
+      told = error.what();
+    }
+
+    QVERIFY2(told.find("holds records of several fields (compound)") != std::string::npos,
+             told.c_str());
+  }
+
   void readers_mayWorkAtTheSameTime() {
     const Scene scene = plane_scene();
     {

@@ -124,14 +124,19 @@ void write_mat5(const std::filesystem::path& path, const ViewStack<std::uint8_t>
 }
 
 void write_mat5_cells(const std::filesystem::path& path, const ViewStack<std::uint8_t>& views,
-                      bool is_compressed) {
+                      bool is_compressed, Mat5Views form) {
   std::size_t grid[] = {length_of(views, 'v'), length_of(views, 'u')};
   std::size_t dims[] = {length_of(views, 'y'), length_of(views, 'x'), length_of(views, 'c')};
   std::vector<std::uint8_t> samples = in_axes(views, "uvcxy");
-  matvar_t* cells = Mat_VarCreate("LF", MAT_C_CELL, MAT_T_CELL, 2, grid, nullptr, 0);
+  const char* fields[] = {"img"};
+  const bool are_cells = form == Mat5Views::Cells;
+  matvar_t* cells = are_cells ? Mat_VarCreate("LF", MAT_C_CELL, MAT_T_CELL, 2, grid, nullptr, 0)
+                              : Mat_VarCreateStruct("LF", 2, grid, fields, 1);
   for (int i = 0; i < views.grid().count(); ++i) {
     std::uint8_t* view = samples.data() + static_cast<std::size_t>(i) * views.view_size();
-    Mat_VarSetCell(cells, i, Mat_VarCreate(nullptr, MAT_C_UINT8, MAT_T_UINT8, 3, dims, view, 0));
+    matvar_t* one = Mat_VarCreate(nullptr, MAT_C_UINT8, MAT_T_UINT8, 3, dims, view, 0);
+    if (are_cells) Mat_VarSetCell(cells, i, one);
+    if (!are_cells) Mat_VarSetStructFieldByName(cells, "img", static_cast<std::size_t>(i), one);
   }
   mat_t* file = Mat_CreateVer(path.c_str(), nullptr, MAT_FT_MAT5);
   Mat_VarWrite(file, cells, is_compressed ? MAT_COMPRESSION_ZLIB : MAT_COMPRESSION_NONE);

@@ -31,9 +31,12 @@ struct Mat5Form {
 void write_mat5(const std::filesystem::path& path, const ViewStack<std::uint8_t>& views,
                 const Mat5Form& form);
 
-/// Writes LF{t, s}, a cell array of views (v, u, c), by libmatio.
+/// What holds the views of a MATLAB 5 file.
+enum class Mat5Views { Cells, Structs };
+
+/// Writes views (v, u, c) as LF{t, s}, a cell array, or LF(t, s).img, by libmatio.
 void write_mat5_cells(const std::filesystem::path& path, const ViewStack<std::uint8_t>& views,
-                      bool is_compressed);
+                      bool is_compressed, Mat5Views form = Mat5Views::Cells);
 
 /// Writes one 2-D array of doubles, not compressed.
 void write_mat5_map(const std::filesystem::path& path, const std::string& name,

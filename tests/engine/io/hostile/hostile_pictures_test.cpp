@@ -8,9 +8,13 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include <QDir>
+#include <QFile>
 #include <QTemporaryDir>
 
+#include <unistd.h>
+
 #include <fstream>
+#include <iostream>
 
 namespace episcope::in_hostile_pictures_test {
 
@@ -183,6 +187,32 @@ class HostilePicturesTest : public QObject {
     }
 
     QCOMPARE(open_files(), before);
+  }
+
+  // OpenCV wrote why to standard error, too.
+  void cutPictures_areRefusedSilently_data() {
+    QTest::addColumn<QString>("suffix");
+    for (const char* suffix : {"bmp", "ppm", "tif", "jp2"}) QTest::newRow(suffix) << suffix;
+  }
+  void cutPictures_areRefusedSilently() {
+    QFETCH(QString, suffix);
+    const std::filesystem::path path = folder_.filePath("cut." + suffix).toStdString();
+    cv::Mat picture(64, 70, CV_8UC3);
+    cv::randu(picture, 0, 255);
+    QVERIFY(cv::imwrite(path.string(), picture));
+    std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
+    QFile errors(folder_.filePath("errors"));
+    QVERIFY(errors.open(QIODevice::ReadWrite | QIODevice::Truncate));
+    const int before = dup(STDERR_FILENO);
+    dup2(errors.handle(), STDERR_FILENO);
+
+    QVERIFY_THROWS_EXCEPTION(IoError, static_cast<void>(io::decode_image(path)));
+    std::cerr << "heard" << std::flush;
+
+    dup2(before, STDERR_FILENO);
+    close(before);
+    QVERIFY(errors.seek(0));
+    QCOMPARE(errors.readAll(), QByteArray("heard"));
   }
 };
 

@@ -246,13 +246,17 @@ class JoinedArraysTest : public QObject {
 
   void cellsOfMatlab_areOneLightField_data() {
     QTest::addColumn<bool>("compressed");
-    QTest::newRow("plain") << false;
-    QTest::newRow("compressed") << true;
+    QTest::addColumn<bool>("are_structs");
+    QTest::newRow("plain") << false << false;
+    QTest::newRow("compressed") << true << false;
+    QTest::newRow("array of structs") << false << true;
   }
   void cellsOfMatlab_areOneLightField() {
     QFETCH(bool, compressed);
+    QFETCH(bool, are_structs);
     const Scene scene = reference({5, 7});
-    write_mat5_cells(path("lf.mat"), bytes_of(scene), compressed);
+    write_mat5_cells(path("lf.mat"), bytes_of(scene), compressed,
+                     are_structs ? Mat5Views::Structs : Mat5Views::Cells);
 
     const Scene read = io::open_scene(path("lf.mat"), {}, Progress(1));
 

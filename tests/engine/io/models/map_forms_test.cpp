@@ -2,6 +2,7 @@
 #include "engine/core/error.h"
 #include "engine/io/base/atomic_file.h"
 #include "engine/io/base/exchange_files.h"
+#include "engine/io/base/image_file.h"
 #include "engine/io/base/npy.h"
 #include "engine/io/formats/write_arrays.h"
 #include "engine/io/models/external_result.h"
@@ -12,7 +13,9 @@
 #include <QTemporaryDir>
 #include <opencv2/imgcodecs.hpp>
 
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace episcope::in_map_forms_test {
@@ -60,6 +63,39 @@ void write_npz(const std::filesystem::path& path, const ViewStack<float>& maps) 
 
 void write_mat(const std::filesystem::path& path, const ViewStack<float>& maps) {
   io::write_mat_maps(path, result_of(maps));
+}
+
+/// An uncompressed TIFF of one strip. `format`: 1 = unsigned, 2 = signed, 3 = float; by default as
+/// the samples are.
+void write_tiff(const std::filesystem::path& path, const cv::Mat& samples, int format = 0) {
+  if (format == 0) format = samples.depth() >= CV_32F ? 3 : 2;
+  const auto size = static_cast<std::uint32_t>(samples.total() * samples.elemSize());
+  std::string file("II*\0", 4);
+  const auto put = [&](std::uint32_t number, int bytes) {
+    for (int i = 0; i < bytes; ++i) file += static_cast<char>(number >> (8 * i) & 0xFF);
+  };
+  put(8 + size, 4);
+  file.append(reinterpret_cast<const char*>(samples.data), size);
+  const std::vector<std::array<std::uint32_t, 2>> tags{
+      {256, static_cast<std::uint32_t>(samples.cols)},
+      {257, static_cast<std::uint32_t>(samples.rows)},
+      {258, static_cast<std::uint32_t>(8 * samples.elemSize1())},
+      {259, 1},
+      {262, 1},
+      {273, 8},
+      {277, 1},
+      {278, static_cast<std::uint32_t>(samples.rows)},
+      {279, size},
+      {339, static_cast<std::uint32_t>(format)}};
+  put(static_cast<std::uint32_t>(tags.size()), 2);
+  for (const auto& [tag, value] : tags) {
+    put(tag, 2);
+    put(4, 2);
+    put(1, 4);
+    put(value, 4);
+  }
+  put(0, 4);
+  io::write_atomically(path, file);
 }
 
 /// With confidence, and second disparity in every other pixel.
@@ -217,6 +253,69 @@ class MapFormsTest : public QObject {
     QCOMPARE(map.at(0, 2), -0.3F);
     QVERIFY(std::isnan(map.at(1, 1)));
     QCOMPARE(map.at(1, 2), 6.0F);
+  }
+
+  void csv_leavesOutNamesOfRowsAndColumns_data() {
+    QTest::addColumn<QString>("header");
+    QTest::addColumn<bool>("has_index");
+    QTest::newRow("numbers") << "0,1,2,3,4,5,6,7,8" << false;
+    QTest::newRow("index and numbers, as of pandas") << ",0,1,2,3,4,5,6,7,8" << true;
+    QTest::newRow("named index and numbers") << "y,0,1,2,3,4,5,6,7,8" << true;
+    QTest::newRow("names") << "a,b,c,d,e,f,g,h,i" << false;
+    QTest::newRow("index and names") << ",a,b,c,d,e,f,g,h,i" << true;
+    QTest::newRow("named index and names") << "y,a,b,c,d,e,f,g,h,i" << true;
+    QTest::newRow("index alone") << "" << true;
+  }
+  void csv_leavesOutNamesOfRowsAndColumns() {
+    QFETCH(QString, header);
+    QFETCH(bool, has_index);
+    std::string text = header.isEmpty() ? std::string() : header.toStdString() + "\n";
+    for (int y = 0; y < 10; ++y) {
+      if (has_index) text += std::to_string(y) + ",";
+      for (int x = 0; x < 9; ++x) text += (x > 0 ? "," : "") + std::to_string(-x - 10 * y);
+      text += "\n";
+    }
+
+    const Image<float> map = csv_map(text.c_str());
+
+    QVERIFY(io::is_text_map(path("map.csv")));
+    QCOMPARE(map.height(), 10);
+    QCOMPARE(map.width(), 9);
+    QCOMPARE(map.at(0, 0), 0.0F);
+    QCOMPARE(map.at(9, 8), -98.0F);
+  }
+
+  void tiffOfOtherSamples_isRead_data() {
+    QTest::addColumn<int>("depth");
+    QTest::newRow("double") << CV_64F;
+    QTest::newRow("int16") << CV_16S;
+    QTest::newRow("int32") << CV_32S;
+  }
+  void tiffOfOtherSamples_isRead() {
+    QFETCH(int, depth);
+    cv::Mat samples(3, 4, CV_MAKETYPE(depth, 1));
+    for (int i = 0; i < 12; ++i)
+      cv::Mat(1, 1, CV_64F, cv::Scalar(-3 * i))
+          .convertTo(samples(cv::Rect(i % 4, i / 4, 1, 1)), depth);
+    write_tiff(path("a.tif"), samples);
+
+    const DisparityField read = io::read_disparity_map(path("a.tif"), kGrid);
+
+    QCOMPARE(read.disparity.view(kGrid.center()).at(2, 3), -33.0F);
+    QCOMPARE(io::read_image_header(path("a.tif")).sample_type, SampleType::Float32);
+  }
+
+  void tiffOfSamplesThatAreNotRead_isNamed() {
+    std::string told;
+    write_tiff(path("u.tif"), cv::Mat(3, 4, CV_32S, cv::Scalar(7)), 1);
+    try {
+      (void)io::read_disparity_map(path("u.tif"), kGrid);
+    } catch (const IoError& error) {
+      told = error.what();
+    }
+    QVERIFY2(
+        told.find("integers of 32 bits are not read; save it as 32-bit float") != std::string::npos,
+        told.c_str());
   }
 
   void csv_refusesWhatIsNoMap() {

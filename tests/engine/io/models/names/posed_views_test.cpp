@@ -194,6 +194,7 @@ class PosedViewsTest : public QObject {
     QVERIFY(std::abs(camera.focal_length - 72 * kFocal_widths) < 1e-3);
     QCOMPARE(scene.light_field->info().positions.size(), std::size_t{15});
     QVERIFY(std::abs(scene.light_field->info().positions.back().x - 4 * kStep) < 1e-5);
+    QCOMPARE(scene.convention.sign, std::string("checked"));
   }
 
   void namesOfColmap_areFoundAsTheyAre_data() {
@@ -344,7 +345,7 @@ class PosedViewsTest : public QObject {
     QTest::newRow("grid") << 0.2 << 0.05 << 1.0 << "";
     QTest::newRow("turned") << 2.0 << 0.0 << 1.0 << "turned against each other by up to 2°";
     QTest::newRow("uneven") << 0.0 << 0.2 << 1.0 << "off a grid of equal steps by up to 0.2";
-    QTest::newRow("wide") << 0.0 << 0.0 << 1.3 << "columns are 1.3 times as far apart as rows";
+    QTest::newRow("wide") << 0.0 << 0.0 << 1.3 << "";
   }
   void camerasThatAreNoGrid_areToldWhy() {
     QFETCH(double, turn_deg);
@@ -369,6 +370,24 @@ class PosedViewsTest : public QObject {
     QVERIFY2(problem.isEmpty() == found.empty() &&
                  found.find(problem.toStdString()) != std::string::npos,
              found.c_str());
+  }
+
+  void rowsFartherApart_areAGrid() {
+    std::vector<io::CameraPose> poses;
+    for (int i = 0; i < 15; ++i) {
+      poses.push_back({.image = {},
+                       .center = {0.1 * (i % 5), 0.25 * (i / 5), 0},
+                       .right = {1, 0, 0},
+                       .down = {0, 1, 0},
+                       .ahead = {0, 0, 1}});
+    }
+
+    const io::PoseGrid found = io::find_pose_grid(poses);
+
+    QCOMPARE(found.problem, std::string());
+    QCOMPARE(found.grid, (GridShape{3, 5}));
+    QVERIFY(std::abs(found.step - 0.1) < 1e-9);
+    QVERIFY(std::abs(found.positions.back().y - 0.5) < 1e-9);
   }
 
   void shortenedColmap_isRefused() {

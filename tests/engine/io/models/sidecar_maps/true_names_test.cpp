@@ -320,6 +320,21 @@ class TrueNamesTest : public QObject {
     QVERIFY(!folder_.open("dino").truth->has_disparity());
   }
 
+  void folderOfTruth_holdsTheMapOfTheOnlyScene() {
+    folder_.write_views(LayeredFolder::named("cotton/{}_{}.png"));
+    folder_.write_npy("gt/cotton.npy", truth());
+
+    QVERIFY(is_true(folder_.open("cotton")));
+  }
+
+  void mapsOfNoView_areTold() {
+    folder_.write_views(LayeredFolder::named("{}_{}.png"));
+    folder_.write_npy(LayeredFolder::named("{}_{}_disparity.npy"), scene().disparity);
+    folder_.write_npy("7_1_disparity.npy", truth());
+
+    QVERIFY(warns_of(folder_.open(), "1 of 10 files #_#_disparity.npy belong to no view"));
+  }
+
   void labelsOfAnotherScene_areNotTaken() {
     const auto labels = scene().labels.view(kCenter);
     folder_.write_views(LayeredFolder::named("s/dino/{}_{}.png"));
