@@ -178,10 +178,9 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
      "The fourth channel is left out."},
     // Cameras and views that are not where they should be.
     {"camera.unequal",
-     "Rows of cameras are {:.3g} times as far apart as columns. Stereo methods use the positions "
-     "of "
-     "the cameras, up to 2 times; all others take both distances for equal, and their disparity is "
-     "wrong: --crop 1x{} reads a single row of views for them.",
+     "Rows of cameras are {:.3g} times as far apart as columns. net, plane_pm and stereo methods "
+     "use the positions of the cameras, up to 2 times; all others take both distances for equal, "
+     "and their disparity is wrong: --crop 1x{} reads a single row of views for them.",
      "Rows of cameras are %1 times as far apart as columns."},
     {"views.same",
      "Views {} are one and the same picture, stored more than once: replace what is wrong, or "

@@ -3416,8 +3416,8 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Die Zeilen der Kameras liegen %1-mal so weit auseinander wie die Spalten.</translation>
     </message>
     <message>
-        <source>Rows of cameras are %1 times as far apart as columns. Stereo methods use the positions of the cameras, up to 2 times; all others take both distances for equal, and their disparity is wrong: --crop 1x%2 reads a single row of views for them.</source>
-        <translation>Die Zeilen der Kameras liegen %1-mal so weit auseinander wie die Spalten. Stereoverfahren verwenden die Positionen der Kameras, bis zum 2-Fachen; alle anderen halten beide Abstände für gleich, und ihre Disparität ist falsch: --crop 1x%2 liest für sie eine einzige Zeile von Ansichten.</translation>
+        <source>Rows of cameras are %1 times as far apart as columns. net, plane_pm and stereo methods use the positions of the cameras, up to 2 times; all others take both distances for equal, and their disparity is wrong: --crop 1x%2 reads a single row of views for them.</source>
+        <translation>Die Zeilen der Kameras liegen %1-mal so weit auseinander wie die Spalten. net, plane_pm und Stereoverfahren verwenden die Positionen der Kameras, bis zum 2-Fachen; alle anderen halten beide Abstände für gleich, und ihre Disparität ist falsch: --crop 1x%2 liest für sie eine einzige Zeile von Ansichten.</translation>
     </message>
     <message>
         <source>Views %1 and %2 seem to be exchanged.</source>
