@@ -6,7 +6,7 @@
 #include "engine/core/error.h"
 #include "engine/disparity/registry.h"
 #include "engine/io/base/files.h"
-#include "engine/io/formats/archive_reader.h"
+#include "engine/io/formats/archive_companions.h"
 #include "engine/labeling/edge_probability.h"
 
 #include <set>

@@ -9,7 +9,7 @@
 #include "engine/io/base/atomic_file.h"
 #include "engine/io/base/files.h"
 #include "engine/io/base/image_file.h"
-#include "engine/io/formats/archive_reader.h"
+#include "engine/io/formats/archive_companions.h"
 #include "engine/io/models/scribble_file.h"
 #include "engine/labeling/label_review.h"
 

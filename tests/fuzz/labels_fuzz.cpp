@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/formats/archive_reader.h"
+#include "engine/io/formats/archive_companions.h"
 #include "engine/io/models/scribble_file.h"
 #include "tests/fuzz/harness.h"
 #include "tests/fuzz/seed_scene.h"

@@ -14,7 +14,7 @@
 #include "engine/core/progress.h"
 #include "engine/disparity/estimator.h"
 #include "engine/io/base/json.h"
-#include "engine/io/formats/archive_reader.h"
+#include "engine/io/formats/archive_companions.h"
 
 #include <nlohmann/json.hpp>
 

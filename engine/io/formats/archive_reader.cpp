@@ -4,10 +4,9 @@
 #include "engine/core/error.h"
 
 #include "engine/core/finding.h"
-#include "engine/core/memory.h"
-#include "engine/io/base/hdf5_output.h"
 #include "engine/io/base/json.h"
 #include "engine/io/base/sample_range.h"
+#include "engine/io/formats/archive_companions.h"
 #include "engine/io/formats/archive_depth.h"
 #include "engine/io/formats/write_scene.h"
 #include "engine/io/models/array_samples.h"
@@ -20,9 +19,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstring>
 #include <functional>
 #include <optional>
 #include <utility>
@@ -332,95 +329,136 @@ std::string group_text(const Hdf5Input& file) {
   return file.group().empty() ? std::string() : ", group " + file.group();
 }
 
-Scene read_archive(const std::filesystem::path& path, const OpenOptions& options,
-                   const Progress& progress) {
-  const auto input = open_archive_file(path);
-  const Hdf5Input& file = *input;
-  const ArchiveLayout layout = archive_layout(file);
-  const GridShape grid = layout.shape.grid;
-  Scene scene;
-  ConventionReport& report = scene.convention;
-  report.format =
-      fmt::format(finding_text("format.archive"), path.filename().string() + group_text(file));
-  report.stated = read_stated(file);
-  if (!report.stated.origin.empty()) report.format += ", " + report.stated.origin;
-  compare_sizes(file, report);
-  tell_faults(file, report);
-  LightFieldInfo info{scene_name(path),
-                      path.string(),
-                      read_camera(file),
-                      stated_range(file),
-                      {.reader = kArchiveReader, .options = {}}};
+// Reads an archive step by step.
+class ArchiveReading {
+ public:
+  ArchiveReading(const fs::path& path, const OpenOptions& options)
+      : path_(path),
+        options_(options),
+        input_(open_archive_file(path)),
+        layout_(archive_layout(file_)),
+        account_(path.has_parent_path() ? path.parent_path() : fs::path(".")) {}
 
-  read_positions(file, grid, info);
-  add_positions(file, grid, info);
-  progress.step("reading views");
-  LightField::Samples samples =
-      read_archive_samples(file, layout, options, info, progress.part(0, 0.45));
-  // Samples that stay in the file are read by the checks.
-  const bool is_mapped =
-      std::visit([](const auto& stack) { return stack.kind() == LargeKind::File; }, samples);
-  const double read = is_mapped ? 0.1 : 0.8;
-  const Progress reading = progress.part(0, read);
-  ViewStack<std::uint8_t> valid = read_valid(file, layout.shape, reading.part(0.55, 0.58));
-  if (valid.empty()) valid = read_alpha(file, layout, reading.part(0.58, 0.6));
-  if (!options.levels.empty()) report.stated.samples.clear();
-  report.samples = report.stated.samples;
-  if (report.samples.empty()) {
-    settle_range(samples, options.levels, report);
+  Scene read(const Progress& progress) {
+    begin_report();
+    begin_info();
+    progress.step("reading views");
+    parts_.samples =
+        read_archive_samples(file_, layout_, options_, parts_.info, progress.part(0, 0.45));
+    // Samples that stay in the file are read by the checks.
+    const double read = is_mapped() ? 0.1 : 0.8;
+    read_maps(progress.part(0, read));
+    assemble(std::move(parts_), options_, scene_, progress.part(read, 1));
+    settle_sign();
+    settle_scribbles();
+    add_companions();
+    return std::move(scene_);
   }
-  progress.step("reading depth");
-  ArchiveTruth depth = read_archive_depth(file, samples, options, report, reading.part(0.6, 0.85));
-  progress.step("reading labels");
-  ArchiveLabels labels;
-  FileUsage account(path.has_parent_path() ? path.parent_path() : fs::path("."));
-  account.use(path, "light field");
-  std::map<std::string, Image<std::uint8_t>> regions;
-  if (options.needs_truth) {
-    regions = read_regions(file, layout.shape);
-    labels = read_labels(file, layout.shape, report, account, reading.part(0.85, 0.95));
+
+ private:
+  [[nodiscard]] bool is_mapped() const {
+    return std::visit([](const auto& stack) { return stack.kind() == LargeKind::File; },
+                      parts_.samples);
   }
-  GroundTruth truth{std::move(depth.field), std::move(depth.foreground),
-                    std::move(depth.background), std::move(labels.labels), std::move(regions)};
-  info.camera = depth.camera;
-  ExpectedOrder expected = expected_order(file);
-  const std::vector<FileUse> others =
-      read_other_maps(input, layout, options.needs_truth, {samples, truth, valid, expected, report},
-                      reading.part(0.95, 1));
-  tell_unused_depth(depth, !truth.field.empty(), report);
-  if (truth.has_disparity() || truth.has_layers()) truth.estimated = read_estimated(file);
-  if (truth.estimated && options.needs_truth) {
-    report.warnings.push_back(
+
+  void begin_report() {
+    report_.format =
+        fmt::format(finding_text("format.archive"), path_.filename().string() + group_text(file_));
+    report_.stated = read_stated(file_);
+    if (!report_.stated.origin.empty()) report_.format += ", " + report_.stated.origin;
+    compare_sizes(file_, report_);
+    tell_faults(file_, report_);
+    account_.use(path_, "light field");
+  }
+  void begin_info() {
+    parts_.info = {scene_name(path_),
+                   path_.string(),
+                   read_camera(file_),
+                   stated_range(file_),
+                   {.reader = kArchiveReader, .options = {}}};
+    read_positions(file_, layout_.shape.grid, parts_.info);
+    add_positions(file_, layout_.shape.grid, parts_.info);
+  }
+  // What is stored beside the samples.
+  void read_maps(const Progress& progress) {
+    parts_.valid = read_valid(file_, layout_.shape, progress.part(0.55, 0.58));
+    if (parts_.valid.empty()) parts_.valid = read_alpha(file_, layout_, progress.part(0.58, 0.6));
+    if (!options_.levels.empty()) report_.stated.samples.clear();
+    report_.samples = report_.stated.samples;
+    if (report_.samples.empty()) settle_range(parts_.samples, options_.levels, report_);
+    progress.step("reading depth");
+    ArchiveTruth depth =
+        read_archive_depth(file_, parts_.samples, options_, report_, progress.part(0.6, 0.85));
+    GroundTruth& truth = parts_.truth;
+    truth.field = std::move(depth.field);
+    truth.foreground = std::move(depth.foreground);
+    truth.background = std::move(depth.background);
+    parts_.info.camera = depth.camera;
+    progress.step("reading labels");
+    if (options_.needs_truth) {
+      truth.regions = read_regions(file_, layout_.shape);
+      ArchiveLabels labels =
+          read_labels(file_, layout_.shape, report_, account_, progress.part(0.85, 0.95));
+      truth.labels = std::move(labels.labels);
+      scribbles_ = std::move(labels.scribbles);
+    }
+    parts_.expected = expected_order(file_);
+    others_ = read_other_maps(input_, layout_, options_.needs_truth,
+                              {parts_.samples, truth, parts_.valid, parts_.expected, report_},
+                              progress.part(0.95, 0.98));
+    tell_unused_depth(depth, !truth.field.empty(), report_);
+    settle_truth(progress.part(0.98, 1));
+  }
+  // Maps of other files where the archive holds none; how they were estimated.
+  void settle_truth(const Progress& progress) {
+    GroundTruth& truth = parts_.truth;
+    if (!truth.has_disparity() && !truth.has_layers()) {
+      infos_ = add_maps_named_after(path_, options_, parts_, {account_, report_}, progress);
+      return;
+    }
+    truth.estimated = read_estimated(file_);
+    if (!truth.estimated || !options_.needs_truth) return;
+    report_.warnings.push_back(
         fmt::format(finding_text("truth.estimated"), estimated_text(*truth.estimated)));
   }
-  SceneParts parts{.samples = std::move(samples),
-                   .truth = std::move(truth),
-                   .info = std::move(info),
-                   .expected = std::move(expected),
-                   .valid = std::move(valid)};
-  std::vector<LabelInfo> infos;
-  if (!parts.truth.has_disparity() && !parts.truth.has_layers()) {
-    infos = add_maps_named_after(path, options, parts, {account, report}, reading.part(0.98, 1));
+  void settle_sign() {
+    if (report_.order_was_chosen) report_.stated.sign.clear();
+    if (report_.stated.sign.empty() || !report_.sign.empty()) return;
+    report_.sign = "checked";
+    report_.sign_check = report_.stated.sign;
   }
-  assemble(std::move(parts), options, scene, progress.part(read, 1));
-  if (report.order_was_chosen) report.stated.sign.clear();
-  if (!report.stated.sign.empty() && report.sign.empty()) {
-    report.sign = "checked";
-    report.sign_check = report.stated.sign;
+  void settle_scribbles() {
+    if (scribbles_.labels.empty()) scribbles_.labels = std::move(infos_);
+    put_in_order(scribbles_, layout_.shape.grid, flip_of(report_));
+    if (report_.crop.leaves_out()) scribbles_ = cropped(std::move(scribbles_), report_.crop);
+    scene_.scribbles = std::move(scribbles_);
   }
-  scene.scribbles = std::move(labels.scribbles);
-  if (scene.scribbles.labels.empty()) scene.scribbles.labels = std::move(infos);
-  put_in_order(scene.scribbles, grid, flip_of(report));
-  if (report.crop.leaves_out()) {
-    scene.scribbles = cropped(std::move(scene.scribbles), report.crop);
+  void add_companions() {
+    scene_.companions = find_companions(path_.parent_path(), *scene_.light_field, report_);
+    for (const Companion& companion : scene_.companions) {
+      account_.use(companion.path, companion_name(companion.kind));
+    }
+    report_.files = account_.uses();
+    report_.files.insert(report_.files.end(), others_.begin(), others_.end());
   }
-  scene.companions = find_companions(path.parent_path(), *scene.light_field, report);
-  for (const Companion& companion : scene.companions) {
-    account.use(companion.path, companion_name(companion.kind));
-  }
-  report.files = account.uses();
-  report.files.insert(report.files.end(), others.begin(), others.end());
-  return scene;
+
+  const fs::path& path_;
+  const OpenOptions& options_;
+  std::shared_ptr<const Hdf5Input> input_;
+  const Hdf5Input& file_ = *input_;
+  ArchiveLayout layout_;
+  FileUsage account_;
+  SceneParts parts_;
+  Scribbles scribbles_;
+  std::vector<LabelInfo> infos_;
+  std::vector<FileUse> others_;
+  Scene scene_;
+  ConventionReport& report_ = scene_.convention;
+};
+
+Scene read_archive(const std::filesystem::path& path, const OpenOptions& options,
+                   const Progress& progress) {
+  return ArchiveReading(path, options).read(progress);
 }
 
 bool holds_archive(const Hdf5Input& file) {
@@ -472,234 +510,6 @@ Reader archive_reader() {
           .find = find_archive,
           .read = read_archive,
           .probe = probe_archive};
-}
-
-namespace {
-
-struct KnownFile {
-  const char* file;
-  CompanionKind kind;
-  const char* dataset;
-};
-
-constexpr const char* kEdgeWeights = "EDGE_WEIGHTS";
-constexpr const char* kProbabilityData = "Probabilities";
-
-constexpr std::array kKnownFiles{
-    KnownFile{"edge_weights.h5", CompanionKind::EdgeProbabilities, kEdgeWeights},
-    KnownFile{"feature_single_view_probabilities.h5", CompanionKind::ImageProbabilities,
-              kProbabilityData},
-    KnownFile{"feature_depth_probabilities.h5", CompanionKind::DepthProbabilities,
-              kProbabilityData},
-    KnownFile{"feature_gt_depth_probabilities.h5", CompanionKind::TrueDepthProbabilities,
-              kProbabilityData}};
-
-Hdf5Shape view_shape(const LightField& field) {
-  return {static_cast<std::size_t>(field.height()), static_cast<std::size_t>(field.width())};
-}
-
-Hdf5Shape stack_shape(const LightField& field) {
-  const Hdf5Shape view = view_shape(field);
-  return {static_cast<std::size_t>(field.grid().v), static_cast<std::size_t>(field.grid().u),
-          view[0], view[1]};
-}
-
-/// The axis left besides the axes of views and pixels.
-std::optional<std::size_t> label_axis(const Hdf5Shape& shape, const LightField& field) {
-  for (std::size_t axis = shape.size(); axis-- > 0;) {
-    Hdf5Shape others = shape;
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(axis));
-    if (others == view_shape(field) || others == stack_shape(field)) return axis;
-  }
-  return std::nullopt;
-}
-
-/// Throws IoError if the dataset does not fit the light field.
-void require_fit(const std::filesystem::path& path, const std::string& dataset,
-                 const Hdf5Shape& shape, const LightField& field) {
-  const bool is_weights = dataset == kEdgeWeights;
-  const Hdf5Shape plain = stack_shape(field);
-  Hdf5Shape directed = plain;
-  directed.push_back(2);
-  const bool fits =
-      is_weights ? shape == plain || shape == directed : label_axis(shape, field).has_value();
-  if (fits) return;
-  throw IoError(
-      path,
-      "the dataset " + dataset + " has the shape " + shape_text(shape) + ", but " +
-          shape_text(plain) +
-          (is_weights
-               ? " is expected to fit the light field; store it in this form"
-               : " or one view with one more axis of labels is expected; store it in this form"));
-}
-
-}  // namespace
-
-std::vector<Companion> find_companions(const std::filesystem::path& folder, const LightField& field,
-                                       ConventionReport& report) {
-  std::vector<Companion> found;
-  for (const KnownFile& known : kKnownFiles) {
-    const std::filesystem::path path = folder / known.file;
-    if (!has_hdf5_signature(path)) continue;
-    try {
-      const Hdf5Input file(path);
-      if (!file.has_numbers(known.dataset)) continue;
-      const Hdf5Shape shape = file.dataset(known.dataset).shape;
-      require_fit(path, known.dataset, shape, field);
-      found.push_back({known.kind, path, shape_text(shape)});
-    } catch (const IoError& error) {
-      // An unreadable companion must not prevent the light field from opening.
-      report.warnings.push_back(
-          fmt::format(finding_text("companion.ignored"), companion_name(known.kind), error.what()));
-    }
-  }
-  return found;
-}
-
-ViewStack<float> read_edge_probabilities(const std::filesystem::path& path, const Scene& scene,
-                                         const Progress& progress) {
-  const Hdf5Input file(path);
-  const LightField& field = *scene.light_field;
-  const Hdf5Shape shape = file.dataset(kEdgeWeights).shape;
-  require_fit(path, kEdgeWeights, shape, field);
-  const bool is_plain = shape == stack_shape(field);
-  const GridShape grid = field.grid();
-  ViewStack<float> weights(grid, field.height(), field.width(), is_plain ? 1 : 2);
-  for (int i = 0; i < grid.count(); ++i) {
-    progress.check();
-    const ViewIndex stored = grid.view_at(i);
-    file.read(kEdgeWeights, view_block(shape, stored),
-              weights.view(flipped(stored, grid, flip_of(scene.convention))).data);
-    progress.report((i + 1.0) / grid.count());
-  }
-  return weights;
-}
-
-void write_edge_probabilities(const std::filesystem::path& path, const ViewStack<float>& weights,
-                              const Scene& scene, const Progress& progress) {
-  progress.check();
-  const LightField& field = *scene.light_field;
-  const Hdf5Shape shape{
-      static_cast<std::size_t>(weights.grid().v), static_cast<std::size_t>(weights.grid().u),
-      static_cast<std::size_t>(weights.height()), static_cast<std::size_t>(weights.width())};
-  if (weights.channels() != 1 || shape != stack_shape(field)) {
-    throw IoError(path, "edge weights of the shape " + shape_text(shape) +
-                            " do not fit the light field of " + shape_text(stack_shape(field)) +
-                            "; write those of all its views");
-  }
-  AtomicFile target(path, weights.size() * sizeof(float) + (1 << 16));
-  Hdf5Output file(target);
-  write_maps<float>(
-      file, kEdgeWeights, geometry_of(weights), "probability", progress, [&](ViewIndex stored) {
-        return weights.view(flipped(stored, field.grid(), flip_of(scene.convention))).data;
-      });
-  file.close();
-  progress.check();
-  target.commit();
-}
-
-std::string companion_file(CompanionKind kind) {
-  return std::ranges::find(kKnownFiles, kind, &KnownFile::kind)->file;
-}
-
-void write_label_probabilities(const std::filesystem::path& path, int label_count,
-                               const ViewProbabilities& probabilities, const Scene& scene,
-                               const Progress& progress) {
-  progress.check();
-  const LightField& field = *scene.light_field;
-  const GridShape grid = field.grid();
-  Hdf5Shape shape = stack_shape(field);
-  shape.push_back(static_cast<std::size_t>(label_count));
-  Image<float> samples(field.height(), field.width(), label_count);
-  const std::uintmax_t views = static_cast<std::uintmax_t>(grid.count());
-  AtomicFile target(path, views * samples.size() * sizeof(float) + (1 << 16));
-  Hdf5Output file(target);
-  file.add_dataset<float>(kProbabilityData, shape, "v,h,y,x,label", "probability");
-  for (int i = 0; i < grid.count(); ++i) {
-    progress.check();
-    const ViewIndex stored = grid.view_at(i);
-    fill_samples(probabilities(flipped(stored, grid, flip_of(scene.convention))), samples);
-    file.write(kProbabilityData, view_block(shape, stored), samples.data());
-    progress.report((i + 1.0) / grid.count());
-  }
-  file.close();
-  progress.check();
-  target.commit();
-}
-
-struct ProbabilityFile::State {
-  State(const std::filesystem::path& path) : file(path) {}
-
-  Hdf5Input file;
-  Hdf5Shape shape;
-  std::size_t label_axis = 0;
-  GridShape grid;
-  ViewFlip flip;
-};
-
-ProbabilityFile::ProbabilityFile(const std::filesystem::path& path, const Scene& scene)
-    : state_(std::make_unique<State>(path)) {
-  State& state = *state_;
-  const LightField& field = *scene.light_field;
-  state.grid = field.grid();
-  state.flip = flip_of(scene.convention);
-  state.shape = state.file.dataset(kProbabilityData).shape;
-  require_fit(path, kProbabilityData, state.shape, field);
-  state.label_axis = *label_axis(state.shape, field);
-}
-
-ProbabilityFile::~ProbabilityFile() = default;
-ProbabilityFile::ProbabilityFile(ProbabilityFile&&) noexcept = default;
-ProbabilityFile& ProbabilityFile::operator=(ProbabilityFile&&) noexcept = default;
-
-int ProbabilityFile::label_count() const {
-  return static_cast<int>(state_->shape[state_->label_axis]);
-}
-
-bool ProbabilityFile::contains(ViewIndex view) const {
-  const bool has_all = state_->shape.size() == 5;
-  return has_all ? state_->grid.contains(view) : view == state_->grid.center();
-}
-
-Image<float> ProbabilityFile::view(ViewIndex view) const {
-  const State& state = *state_;
-  Hdf5Block block{Hdf5Shape(state.shape.size(), 0), state.shape};
-  if (state.shape.size() == 5) {
-    const ViewIndex stored = flipped(view, state.grid, state.flip);
-    const std::size_t v_axis = state.label_axis == 0 ? 1 : 0;
-    const std::size_t u_axis = state.label_axis <= 1 ? 2 : 1;
-    block.start[v_axis] = static_cast<std::size_t>(stored.v);
-    block.start[u_axis] = static_cast<std::size_t>(stored.u);
-    block.count[v_axis] = block.count[u_axis] = 1;
-  }
-  std::size_t total = 1;
-  for (const std::size_t count : block.count) total *= count;
-  std::vector<float> stored(total);
-  state.file.read(kProbabilityData, block, stored.data());
-
-  // Strides of y, x and label in the block just read.
-  std::vector<std::size_t> strides(block.count.size(), 1);
-  for (std::size_t axis = strides.size() - 1; axis-- > 0;) {
-    strides[axis] = strides[axis + 1] * block.count[axis + 1];
-  }
-  std::vector<std::size_t> pixel_axes;
-  for (std::size_t axis = 0; axis < strides.size(); ++axis) {
-    if (axis != state.label_axis) pixel_axes.push_back(axis);
-  }
-  const std::size_t y_axis = pixel_axes[pixel_axes.size() - 2];
-  const std::size_t x_axis = pixel_axes.back();
-  Image<float> out(static_cast<int>(block.count[y_axis]), static_cast<int>(block.count[x_axis]),
-                   label_count());
-  for (int y = 0; y < out.height(); ++y) {
-    for (int x = 0; x < out.width(); ++x) {
-      for (int label = 0; label < out.channels(); ++label) {
-        out.at(y, x, label) = stored[static_cast<std::size_t>(y) * strides[y_axis] +
-                                     static_cast<std::size_t>(x) * strides[x_axis] +
-                                     static_cast<std::size_t>(label) * strides[state.label_axis]];
-      }
-    }
-  }
-  return out;
 }
 
 }  // namespace episcope::io

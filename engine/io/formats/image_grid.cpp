@@ -192,78 +192,122 @@ Reader image_grid_reader() {
           .probe = probe_image_grid};
 }
 
+namespace {
+
+// Reads a grid of images step by step.
+class GridReading {
+ public:
+  GridReading(const fs::path& folder, const OpenOptions& options, const ImageGridExtras& extras)
+      : folder_(folder),
+        source_(extras.source.empty() ? folder : extras.source),
+        options_(options),
+        extras_(extras),
+        grid_(name_grid(folder, options)) {}
+
+  Scene read(const Progress& progress) {
+    if (grid_.placed.is_list && !given_grid(options_)) refuse_mosaics(folder_, views_);
+    evidence_ = settle_grid(folder_, grid_, options_, progress.part(0, 0.1));
+    is_linear_ = is_linear_format(views_.files.front());
+    begin_report();
+    begin_info();
+    progress.step("reading views");
+    read_views(progress.part(0.1, 0.7));
+    read_truth(progress);
+    expect_order();
+    assemble(std::move(parts_), options_, scene_, progress.part(0.8, 1));
+    if (!evidence_.empty() && !report_.order_check.ends_with(evidence_)) {
+      report_.order_check = evidence_ + "; " + report_.order_check;
+    }
+    return std::move(scene_);
+  }
+
+ private:
+  void begin_report() {
+    report_.format =
+        extras_.format.empty() ? format_of(grid_, folder_, source_, options_) : extras_.format;
+    if (is_linear_) report_.format += ", linear float samples";
+    report_.units = "no depth in an image grid";
+    report_.warnings = grid_.placed.warnings;
+    if (const auto others = other_picture_folders(source_, folder_); !others.empty()) {
+      report_.warnings.push_back(fmt::format(finding_text("views.other_folders"),
+                                             folder_.filename().string(), joined(others, ", ")));
+    }
+  }
+  void begin_info() {
+    parts_.info = {scene_name(source_),
+                   source_.string(),
+                   extras_.camera,
+                   extras_.disparity_range,
+                   {.reader = extras_.reader, .options = {}},
+                   grid_.placed.positions};
+  }
+  void read_views(const Progress& progress) {
+    const auto show_center = [this](const Image<std::uint8_t>& center) {
+      if (options_.on_center_view) options_.on_center_view(center, parts_.info, views_.grid);
+    };
+    UsableViews usable = load_usable_views(views_, show_center, progress);
+    if (usable.kept) {
+      parts_.info.positions = positions_of(*usable.kept, parts_.info.positions);
+      views_ = std::move(usable.views);
+      report_.warnings.push_back(std::move(usable.warning));
+    }
+    pixels_ = std::move(usable.pixels);
+    if (!is_linear_ || !options_.levels.empty()) {
+      settle_range(pixels_.samples, options_.levels, report_);
+    }
+  }
+  void read_truth(const Progress& progress) {
+    FileUsage account = account_of(source_, folder_, views_, extras_);
+    CameraGrid& camera = parts_.info.camera;
+    if (grid_.poses.are_used()) add_camera(grid_.poses, pixels_.samples, camera, account);
+    if (extras_.read_truth) {
+      parts_.truth.field = extras_.read_truth(pixels_.samples, camera, report_);
+    } else {
+      progress.step("checking the order of views");
+      parts_.axes =
+          settle_axes(views_, pixels_, parts_.info.positions, options_, progress.part(0.7, 0.75));
+      SidecarMaps beside =
+          read_sidecar_maps({views_, folder_, pixels_.samples, camera, options_.map_views(),
+                             options_.needs_truth, grid_.poses.are_used()},
+                            {account, report_}, progress.part(0.75, 0.8));
+      parts_.truth = std::move(beside.truth);
+      parts_.expected.is_truth_sign_assumed = beside.is_sign_assumed;
+      camera = beside.camera;
+      scene_.scribbles.labels = std::move(beside.label_infos);
+    }
+    parts_.files = account.uses();
+  }
+  void expect_order() {
+    if (!options_.pattern.empty()) {
+      grid_.left_out = without_other_numbers(std::move(grid_.left_out), views_.files.front());
+    }
+    warn_of_ignored_files(grid_.left_out, pixels_.samples, report_);
+    parts_.samples = std::move(pixels_.samples);
+    parts_.valid = std::move(pixels_.valid);
+    parts_.expected.reason = evidence_.empty() ? finding_text("order.of_names") : evidence_;
+    if (grid_.poses.are_used()) parts_.expected.reason = finding_text("order.of_poses");
+    parts_.expected.is_of_poses = grid_.poses.are_used();
+  }
+
+  const fs::path& folder_;
+  const fs::path& source_;
+  const OpenOptions& options_;
+  const ImageGridExtras& extras_;
+  NamedGrid grid_;
+  ViewFiles& views_ = grid_.placed.views;
+  std::string evidence_;  // of the grid; empty if names tell it
+  bool is_linear_ = false;
+  LoadedViews pixels_;
+  SceneParts parts_;
+  Scene scene_;
+  ConventionReport& report_ = scene_.convention;
+};
+
+}  // namespace
+
 Scene read_image_grid(const fs::path& folder, const OpenOptions& options, const Progress& progress,
                       const ImageGridExtras& extras) {
-  NamedGrid grid = name_grid(folder, options);
-  if (grid.placed.is_list && !given_grid(options)) refuse_mosaics(folder, grid.placed.views);
-  const std::string evidence = settle_grid(folder, grid, options, progress.part(0, 0.1));
-  ViewFiles& views = grid.placed.views;
-  const bool is_linear = is_linear_format(views.files.front());
-  Scene scene;
-  ConventionReport& report = scene.convention;
-  const fs::path& source = extras.source.empty() ? folder : extras.source;
-  report.format = extras.format.empty() ? format_of(grid, folder, source, options) : extras.format;
-  if (is_linear) report.format += ", linear float samples";
-  report.units = "no depth in an image grid";
-  report.warnings = grid.placed.warnings;
-  if (const auto others = other_picture_folders(source, folder); !others.empty()) {
-    report.warnings.push_back(fmt::format(finding_text("views.other_folders"),
-                                          folder.filename().string(), joined(others, ", ")));
-  }
-  LightFieldInfo info{scene_name(source),
-                      source.string(),
-                      extras.camera,
-                      extras.disparity_range,
-                      {.reader = extras.reader, .options = {}},
-                      grid.placed.positions};
-  progress.step("reading views");
-  UsableViews usable = load_usable_views(
-      views,
-      [&](const Image<std::uint8_t>& center) {
-        if (options.on_center_view) options.on_center_view(center, info, views.grid);
-      },
-      progress.part(0.1, 0.7));
-  LightField::Samples& samples = usable.pixels.samples;
-  if (usable.kept) {
-    info.positions = positions_of(*usable.kept, info.positions);
-    views = std::move(usable.views);
-    report.warnings.push_back(std::move(usable.warning));
-  }
-  if (!is_linear || !options.levels.empty()) settle_range(samples, options.levels, report);
-  FileUsage account = account_of(source, folder, views, extras);
-  if (grid.poses.are_used()) add_camera(grid.poses, samples, info.camera, account);
-  SceneParts parts;
-  if (extras.read_truth) {
-    parts.truth.field = extras.read_truth(samples, info.camera, report);
-  } else {
-    progress.step("checking the order of views");
-    parts.axes =
-        settle_axes(views, usable.pixels, info.positions, options, progress.part(0.7, 0.75));
-    SidecarMaps beside =
-        read_sidecar_maps({views, folder, samples, info.camera, options.map_views(),
-                           options.needs_truth, grid.poses.are_used()},
-                          {account, report}, progress.part(0.75, 0.8));
-    parts.truth = std::move(beside.truth);
-    parts.expected.is_truth_sign_assumed = beside.is_sign_assumed;
-    info.camera = beside.camera;
-    scene.scribbles.labels = std::move(beside.label_infos);
-  }
-  if (!options.pattern.empty()) {
-    grid.left_out = without_other_numbers(std::move(grid.left_out), views.files.front());
-  }
-  warn_of_ignored_files(grid.left_out, samples, report);
-  parts.samples = std::move(samples);
-  parts.valid = std::move(usable.pixels.valid);
-  parts.info = std::move(info);
-  parts.expected.reason = evidence.empty() ? finding_text("order.of_names") : evidence;
-  if (grid.poses.are_used()) parts.expected.reason = finding_text("order.of_poses");
-  parts.expected.is_of_poses = grid.poses.are_used();
-  parts.files = account.uses();
-  assemble(std::move(parts), options, scene, progress.part(0.8, 1));
-  if (!evidence.empty() && !report.order_check.ends_with(evidence)) {
-    report.order_check = evidence + "; " + report.order_check;
-  }
-  return scene;
+  return GridReading(folder, options, extras).read(progress);
 }
 
 namespace {

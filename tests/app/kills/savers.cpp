@@ -7,7 +7,7 @@
 #include "engine/core/point_cloud.h"
 #include "engine/io/base/atomic_file.h"
 #include "engine/io/base/exchange_files.h"
-#include "engine/io/formats/archive_reader.h"
+#include "engine/io/formats/archive_companions.h"
 #include "engine/io/formats/movie.h"
 #include "engine/io/models/result_file.h"
 #include "engine/io/models/scribble_file.h"

@@ -2,7 +2,7 @@
 #include "app/gui/annotate/segment_controller.h"
 #include "app/gui/scene/overlay.h"
 #include "app/gui/shell/commands.h"
-#include "engine/io/formats/archive_reader.h"
+#include "engine/io/formats/archive_companions.h"
 #include "engine/io/open.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"

@@ -2,7 +2,7 @@
 #include "app/session/labeling_inputs.h"
 
 #include "engine/core/error.h"
-#include "engine/io/formats/archive_reader.h"
+#include "engine/io/formats/archive_companions.h"
 #include "engine/io/models/scribble_file.h"
 #include "engine/labeling/labeler.h"
 #include "engine/scenes/builtin.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/error.h"
-#include "engine/io/formats/archive_reader.h"
+#include "engine/io/formats/archive_companions.h"
 #include "engine/io/formats/write_scene.h"
 #include "tests/engine/io/archive_files.h"
 #include "tests/engine/io/archive_folder.h"
