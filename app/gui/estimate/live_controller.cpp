@@ -226,6 +226,7 @@ void MethodRuns::run(const EstimateRequest& request, const OpenScene& scene, boo
       });
   runs_[job] = scene.id;
   bench_.jobs.setScene(job, scene.id);
+  if (!was_asked_for) bench_.jobs.setExpendable(job);
   if (info.iterative) bench_.jobs.setIterative(job);
   emit changed();
 }

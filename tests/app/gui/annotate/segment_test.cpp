@@ -360,6 +360,7 @@ void SegmentTest::otherScene_dropsEverything() {
   QTRY_VERIFY_WITH_TIMEOUT(!f.segment().labeler().labeling({4, 4}), kPatience);
   QVERIFY(!f.segment().segmentation());
   f.window.bench().document.discardAll();
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().jobs.count(), 0, kScenePatience);
   f.window.bench().opener.close();  // the first one is shown again
   QTRY_COMPARE(f.window.bench().session.scenes().size(), 1U);
   QTRY_VERIFY(f.window.bench().document.document());

@@ -388,7 +388,6 @@ void SweepWindowTest::sweeps_comeBackWithTheProject() {
 
 void SweepWindowTest::sweep_isAskedForBeforeItIsLost() {
   Sweeping f;
-  find<ProjectGuard>(f.window).setWorthKeeping(0);
   f.vary("sweep.first", "inner_scale", "0.6, 1.2");
   f.run();
   f.window.close();

@@ -204,7 +204,6 @@ void OpeningTest::builtinScene_isEstimatedAtOnce() {
   QTRY_VERIFY_WITH_TIMEOUT(!f.window.bench().overlay.picture().isNull(), kPatience);
   QVERIFY(f.window.bench().commands.find("overlay.error")->isEnabled());
   // Nobody asked for it, so that nobody is asked to save it.
-  find<ProjectGuard>(f.window).setWorthKeeping(0);
   QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().guards.may_leave(Leaving::Session), kPatience);
 }
 
