@@ -325,8 +325,8 @@ void SweepController::end(quint64 id) {
     const auto failed = std::ranges::find_if(
         scene.points, [](const SweepPoint& point) { return !point.problem.empty(); });
     if (failed == scene.points.end()) continue;
-    bench_.messages.warn(tr("%1: %2").arg(QString::fromStdString(name_of(*sweep, *failed)),
-                                          QString::fromStdString(failed->problem)));
+    bench_.messages.warn(
+        tr("%1: %2").arg(name_of(*sweep, *failed), QString::fromStdString(failed->problem)));
     return;
   }
 }
@@ -384,7 +384,7 @@ void SweepController::showMap(SweepPlace place, const EstimatePtr& map) {
   const SweepPoint& point = *bench_.scenes.sweeps().find(current_, place);
   const int id = session.add_estimate(map, point.display_range, session.generation());
   session.show_estimate(id);  // it was asked for
-  session.rename_estimate(id, name_of(*current(), point));
+  session.rename_estimate(id, name_of(*current(), point).toStdString());
   shown_[session.generation()] = {id, session.find_estimate(id)->name};
   bench_.overlay.showResults();
 }
@@ -395,7 +395,7 @@ void SweepController::runAgain(SweepPlace place) {
   const EstimateRequest request{sweep.base.method, values_at(sweep.base.parameters, point.point),
                                 sweep.base.options};
   const quint64 job = bench_.jobs.start<FinishedEstimate>(
-      Lane::Estimate, QString::fromStdString(name_of(sweep, point)),
+      Lane::Estimate, job_title(name_of(sweep, point), bench_.session),
       [scene = bench_.session.scene(), request](const Progress& progress) {
         return run_estimator(*scene, find_estimator(request.method), request.parameters,
                              request.options, progress);
@@ -609,8 +609,7 @@ QString unfinished_text(const Sweep& sweep) {
   const auto described = described_under(parameters, sweep.base.parameters);
   const std::size_t planned =
       sweep_points(described, sweep.base.parameters, sweep.swept).size() * sweep.scenes.size();
-  std::size_t done = 0;
-  for (const SweepScene& scene : sweep.scenes) done += scene.points.size();
+  const std::size_t done = point_count(sweep);
   return done < planned ? SweepPlotText::tr(" (%1 of %2 runs)").arg(done).arg(planned) : QString();
 }
 
@@ -630,10 +629,13 @@ QString title_of(const Sweep& sweep) {
                    unfinished_text(sweep);
 }
 
-std::string name_of(const Sweep& sweep, const SweepPoint& point) {
-  return find_estimator(sweep.base.method).info.name + ", " +
-         joined(point.point, ", ",
-                [](const auto& each) { return each.first + " " + to_text(each.second); });
+QString name_of(const Sweep& sweep, const SweepPoint& point) {
+  const Estimator& method = find_estimator(sweep.base.method);
+  QStringList texts{QString::fromStdString(method.info.name)};
+  for (const auto& [key, value] : point.point) {
+    texts << labeled_value_text(method.parameters, key, value);
+  }
+  return texts.join(", ");
 }
 
 QString text_of(const Sweep& sweep, SweepPlace place) {
@@ -641,12 +643,7 @@ QString text_of(const Sweep& sweep, SweepPlace place) {
   const SweepPoint& point = scene.points[place.point];
   QStringList texts;
   if (sweep.scenes.size() > 1) texts << QString::fromStdString(scene.name);
-  const Estimator& estimator = find_estimator(sweep.base.method);
-  QStringList parts{QString::fromStdString(estimator.info.name)};
-  for (const auto& [key, value] : point.point) {
-    parts << labeled_value_text(estimator.parameters, key, value);
-  }
-  texts << parts.join(", ");
+  texts << name_of(sweep, point);
   if (!point.problem.empty()) texts << QString::fromStdString(point.problem);
   if (const auto mse = measure_of(point, SweepMeasure::MseTimes100)) {
     texts << SweepPlotText::tr("MSE×100 %1").arg(number_text(*mse, 3));
