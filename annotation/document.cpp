@@ -50,8 +50,8 @@ int AnnotationDocument::add_label(const std::string& name, std::optional<Rgb> co
   return id;
 }
 
-void AnnotationDocument::add_painted_label() {
-  edit_labels(EditKind::AddPaintedLabel, [](LabelSet& labels) { labels.add(); });
+void AnnotationDocument::add_painted_label(const std::string& name) {
+  edit_labels(EditKind::AddPaintedLabel, [&](LabelSet& labels) { labels.add(name); });
 }
 
 void AnnotationDocument::rename_label(int id, const std::string& name) {

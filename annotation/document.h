@@ -149,7 +149,7 @@ class AnnotationDocument {
   /// Each is one edit; a change to the same value is dropped. Throw InvalidInput as LabelSet does.
   int add_label(const std::string& name = {}, std::optional<Rgb> color = std::nullopt);
   /// Adds a label that an edit needs (EditKind::AddPaintedLabel).
-  void add_painted_label();
+  void add_painted_label(const std::string& name = {});
   void rename_label(int id, const std::string& name);
   void recolor_label(int id, Rgb color);
   /// Also erases everything painted with it, on all views.

@@ -25,11 +25,12 @@ enum class EditKind : std::uint8_t {
   MergeLabel,
   RenumberLabel,
   MoveLabel,
-  AddPaintedLabel  ///< A label for the edit that follows; the two are undone and redone together.
+  AddPaintedLabel,  ///< A label for the edit that follows; the two are undone and redone together.
+  ImportSegmentation  ///< Labels that are no strokes: a step also if names and colors stay.
 };
 
 /// The last of them: journals keep their numbers, so that new ones come after it.
-inline constexpr EditKind kLastEditKind = EditKind::AddPaintedLabel;
+inline constexpr EditKind kLastEditKind = EditKind::ImportSegmentation;
 
 /// Consecutive pixels of a row that had the same label and got the same label.
 struct LabelRun {
@@ -71,7 +72,9 @@ struct Edit {
   std::optional<LabelSetEdit> labels;
   std::optional<SmoothingEdit> smoothing{};
 
-  [[nodiscard]] bool empty() const { return views.empty() && !labels && !smoothing; }
+  [[nodiscard]] bool empty() const {
+    return kind != EditKind::ImportSegmentation && views.empty() && !labels && !smoothing;
+  }
   /// Memory used, in bytes.
   [[nodiscard]] std::size_t byte_size() const;
   friend bool operator==(const Edit&, const Edit&) = default;

@@ -80,7 +80,7 @@ AnnotationDocument document_from(const Scribbles& scribbles, GridShape grid, int
   return {std::move(labels), std::move(layer), history_bytes};
 }
 
-bool import_scribbles(AnnotationDocument& document, const Scribbles& scribbles) {
+bool import_scribbles(AnnotationDocument& document, const Scribbles& scribbles, EditKind kind) {
   const ScribbleLayer& layer = document.scribbles();
   const AnnotationDocument other =
       document_from(scribbles, layer.grid(), layer.height(), layer.width(), 0);
@@ -88,7 +88,7 @@ bool import_scribbles(AnnotationDocument& document, const Scribbles& scribbles) 
   for (const LabelInfo& label : other.labels().labels()) {
     if (!labels.contains(label.id)) labels.insert(label);
   }
-  PendingEdit edit(document, EditKind::Import);
+  PendingEdit edit(document, kind);
   edit.set_labels(std::move(labels));
   for (const ViewIndex view : other.scribbles().painted_views()) {
     for (const auto& [label, region] : regions_of(other.scribbles().view(view))) {

@@ -21,6 +21,7 @@ namespace episcope {
 /// Merges the scribbles of a file into a document, as one edit: adds labels whose ids it does not
 /// have, and pixels where nothing is painted. Returns whether that changed anything. Throws
 /// InvalidInput as `document_from`, changing nothing.
-bool import_scribbles(AnnotationDocument& document, const Scribbles& scribbles);
+bool import_scribbles(AnnotationDocument& document, const Scribbles& scribbles,
+                      EditKind kind = EditKind::Import);
 
 }  // namespace episcope

@@ -117,11 +117,16 @@ LabelInfo& LabelSet::known(int id) {
   return labels_[static_cast<std::size_t>(label - labels_.data())];
 }
 
-int LabelSet::add(const std::string& name, std::optional<Rgb> color) {
+int LabelSet::next_id() const {
   int id = last_id_ + 1;
   if (id > kMaxId) {
     for (id = 1; contains(id);) ++id;
   }
+  return id;
+}
+
+int LabelSet::add(const std::string& name, std::optional<Rgb> color) {
+  const int id = next_id();
   if (id > kMaxId) throw InvalidInput("all 255 labels are in use; remove one first");
   if (!color) {
     int place = id;

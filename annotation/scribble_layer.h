@@ -95,6 +95,8 @@ class LabelSet {
   /// The highest id that was ever given.
   [[nodiscard]] int last_id() const { return last_id_; }
 
+  /// The id that `add` gives; above kMaxId if all are taken.
+  [[nodiscard]] int next_id() const;
   /// Adds a label under the next id and returns the id. An empty name becomes "label <id>"; without
   /// a color it gets the first palette color, starting from its id, that no other label has.
   /// Throws InvalidInput for a bad name or if all ids are taken.

@@ -273,7 +273,6 @@ void add_segmenting(const Workbench& bench) {
   auto* segment = new SegmentController(bench, panel);
   auto* importer = bench.owner.findChild<LabelImporter*>();
   QObject::connect(importer, &LabelImporter::segmented, segment, &SegmentController::takeLabels);
-  QObject::connect(importer, &LabelImporter::undone, segment, &SegmentController::putBack);
   QObject::connect(bench.owner.findChild<AnnotateController*>(),
                    &AnnotateController::disparityWanted, segment,
                    &SegmentController::provideDisparity);

@@ -65,7 +65,7 @@ struct EstimateEntry {
   /// File that it was read from although it belongs to another light field; empty = it does not.
   std::filesystem::path foreign_file{};
   PixelRect part{};     ///< The pixels that were estimated; empty = all.
-  bool is_new = false;  ///< Came during a comparison and was not looked at since.
+  bool is_new = false;  ///< Came unseen, as during a comparison, and was not looked at since.
 };
 
 /// How results are arranged for comparison.

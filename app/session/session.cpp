@@ -151,6 +151,15 @@ void Session::mark_saved(int id) {
   if (EstimateEntry* entry = entry_of_any_scene(id)) entry->is_saved = true;
 }
 
+void Session::mark_new(int id) {
+  if (EstimateEntry* entry = entry_in(*now_, id)) entry->is_new = true;
+  changed(Part::Estimates);
+}
+
+void Session::see(int id) {
+  if (EstimateEntry* entry = entry_in(*now_, id)) see(*entry);
+}
+
 const EstimateEntry* Session::find_estimate(int id) const {
   if (const EstimateEntry* tried = live(); tried && tried->id == id) return tried;
   return entry_in(*now_, id);
@@ -191,8 +200,9 @@ void Session::show_opened_estimate(int id) {
 
 void Session::show_estimate(int id) {
   EstimateEntry* entry = entry_in(*now_, id);
-  if (id == now_->shown || !entry) return;
+  if (!entry) return;
   see(*entry);
+  if (id == now_->shown) return;
   if (const EstimateEntry* other = compared();
       !now_->is_compared_chosen || (other && other->id == id)) {
     now_->compared = now_->shown;

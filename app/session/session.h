@@ -97,6 +97,10 @@ class Session {
   void set_foreign_file(int id, const std::filesystem::path& file);
   /// Notes that a file of the user's holds an estimate of any open scene. Unknown ids are ignored.
   void mark_saved(int id);
+  /// Marks a result of the scene in front that came unseen, until `see`. Unknown ids are ignored.
+  void mark_new(int id);
+  /// Notes that a result of the scene in front was looked at. Unknown ids are ignored.
+  void see(int id);
   [[nodiscard]] const std::vector<EstimateEntry>& estimates() const { return now_->estimates; }
   /// Among them, or the live one; else null.
   [[nodiscard]] const EstimateEntry* find_estimate(int id) const;

@@ -62,12 +62,10 @@ bool has_truth(const SweepScene& scene) {
   });
 }
 
-double seconds_of(const Sweep& sweep) {
-  double seconds = 0;
-  for (const SweepScene& scene : sweep.scenes) {
-    for (const SweepPoint& point : scene.points) seconds += point.seconds;
-  }
-  return seconds;
+std::size_t point_count(const Sweep& sweep) {
+  std::size_t count = 0;
+  for (const SweepScene& scene : sweep.scenes) count += scene.points.size();
+  return count;
 }
 
 ParameterSet values_at(const ParameterSet& values, const ParameterSet& point) {
@@ -126,12 +124,6 @@ std::size_t map_bytes(const std::vector<Sweep>& sweeps) {
     }
   }
   return bytes;
-}
-
-std::size_t point_count(const Sweep& sweep) {
-  std::size_t count = 0;
-  for (const SweepScene& scene : sweep.scenes) count += scene.points.size();
-  return count;
 }
 
 }  // namespace

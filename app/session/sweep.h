@@ -63,8 +63,8 @@ struct Sweep {
   bool is_saved = false;  ///< A file of the user's holds what is there.
 };
 
-/// Seconds that its points took.
-[[nodiscard]] double seconds_of(const Sweep& sweep);
+/// Points of all scenes.
+[[nodiscard]] std::size_t point_count(const Sweep& sweep);
 
 /// Runs a point on the center view and judges it. `reference` is the estimate of the first point;
 /// null while there is none. What the method throws is the problem of the point; throws Cancelled.

@@ -251,6 +251,10 @@
         <source>Paints the inside of the polygon being drawn; without one, paints the marked region in doubt with the label that it has, else what the fill or the wand shows under the cursor</source>
         <translation>Malt das Innere des begonnenen Polygons; ohne eines das markierte zweifelhafte Gebiet mit seinem Label, sonst was Füllung oder Zauberstab unter dem Zeiger zeigen</translation>
     </message>
+    <message>
+        <source>import of a segmentation</source>
+        <translation>Import einer Segmentierung</translation>
+    </message>
 </context>
 <context>
     <name>episcope::AnnotationBar</name>
@@ -2020,10 +2024,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>Nothing is segmented yet: paint two labels, then update the segmentation.</source>
         <translation>Noch ist nichts segmentiert: zwei Labels malen, dann die Segmentierung aktualisieren.</translation>
-    </message>
-    <message>
-        <source>%1 holds labels that were out of date: strokes or settings changed since.</source>
-        <translation>%1 enthält veraltete Labels: Striche oder Einstellungen haben sich seither geändert.</translation>
     </message>
     <message>
         <source>They were read from a file: segment again to export probabilities as well.</source>
@@ -3965,6 +3965,13 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     </message>
 </context>
 <context>
+    <name>episcope::LabelChoice</name>
+    <message>
+        <source>label %1</source>
+        <translation>Label %1</translation>
+    </message>
+</context>
+<context>
     <name>episcope::LabelController</name>
     <message>
         <source>Label %1</source>
@@ -4169,10 +4176,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <source>Imported: %1</source>
         <translation>Importiert: %1</translation>
     </message>
-    <message>
-        <source>Undo</source>
-        <translation>Rückgängig</translation>
-    </message>
 </context>
 <context>
     <name>episcope::LabelLookController</name>
@@ -4358,6 +4361,10 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>Move down</source>
         <translation>Nach unten</translation>
+    </message>
+    <message>
+        <source>Merge into…</source>
+        <translation>Verbinden mit…</translation>
     </message>
 </context>
 <context>
@@ -5227,7 +5234,7 @@ s</translation>
     </message>
     <message>
         <source>bad .07</source>
-        <translation>bad .07</translation>
+        <translation>schlecht .07</translation>
     </message>
     <message>
         <source>Pixels off by more than 0.07 px, in %</source>
@@ -5235,7 +5242,7 @@ s</translation>
     </message>
     <message>
         <source>bad .03</source>
-        <translation>bad .03</translation>
+        <translation>schlecht .03</translation>
     </message>
     <message>
         <source>Pixels off by more than 0.03 px, in %</source>
@@ -5243,7 +5250,7 @@ s</translation>
     </message>
     <message>
         <source>bad .01</source>
-        <translation>bad .01</translation>
+        <translation>schlecht .01</translation>
     </message>
     <message>
         <source>Pixels off by more than 0.01 px, in %</source>
@@ -8940,6 +8947,10 @@ s</translation>
         <source>Masks of labels…</source>
         <translation>Masken der Labels…</translation>
     </message>
+    <message>
+        <source>%1, out of date</source>
+        <translation>%1, veraltet</translation>
+    </message>
 </context>
 <context>
     <name>episcope::SegmentPanel</name>
@@ -8989,6 +9000,10 @@ s</translation>
     <message>
         <source>Folder for the masks of this view; segment all views first to save all masks</source>
         <translation>Ordner für die Masken dieser Ansicht; für die aller erst alle Ansichten segmentieren</translation>
+    </message>
+    <message>
+        <source>%1 holds labels that were out of date: strokes or settings changed since.</source>
+        <translation>%1 enthält veraltete Labels: Striche oder Einstellungen haben sich seither geändert.</translation>
     </message>
 </context>
 <context>
@@ -9312,6 +9327,10 @@ s</translation>
     <message>
         <source>Visible pixels that are off by more than the threshold, without the border of 15 px, which the table ignores, too</source>
         <translation>Sichtbare Pixel, die um mehr als die Schwelle abweichen, ohne den Rand von 15 px, den auch die Tabelle auslässt</translation>
+    </message>
+    <message>
+        <source>bad: of the visible part, without the border of 15 px</source>
+        <translation>schlecht: im sichtbaren Teil, ohne den Rand von 15 px</translation>
     </message>
 </context>
 <context>

@@ -167,6 +167,7 @@ void LabelPalette::showMarks() {
     item->setText(kAmount, amount == amounts_.end() ? QString() : amount->second.text);
     item->setToolTip(kAmount, amount == amounts_.end() ? QString() : amount->second.tip);
   }
+  tree_->resizeColumnToContents(kAmount);
 }
 
 QTreeWidgetItem* LabelPalette::itemOf(int id) const {
@@ -257,6 +258,8 @@ void LabelPalette::showMenu(const QPoint& position) {
   menu->addAction(themed_icon("rename"), tr("Rename"), this, [this, id] { editName(id); });
   menu->addAction(tr("Change color…"), this, [this, id] { emit colorRequested(id); });
   menu->addAction(tr("Change number…"), this, [this, id] { emit numberRequested(id); });
+  menu->addAction(tr("Merge into…"), this, [this, id] { emit mergeRequested(id); })
+      ->setEnabled(labels_.size() > 1);
   menu->addAction(tr("Move up"), this, [this, id] { emit moveRequested(id, -1); });
   menu->addAction(tr("Move down"), this, [this, id] { emit moveRequested(id, 1); });
   menu->addSeparator();

@@ -54,6 +54,7 @@ class LabelPalette : public QWidget {
   void renameRequested(int id, const QString& name);
   void colorRequested(int id);
   void numberRequested(int id);
+  void mergeRequested(int id);
   /// Down the list by so many places.
   void moveRequested(int id, int by);
   void removeRequested(int id);

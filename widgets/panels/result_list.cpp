@@ -21,7 +21,7 @@ namespace episcope {
 namespace {
 
 constexpr int kResultRowPadding = 6;
-constexpr int kMarkPadding = 8;
+constexpr int kMarkPadding = 32;  // with the icon beside it
 constexpr int kWidestMethod = 150;
 constexpr int kNarrowestMethod = 80;
 constexpr int kMethodPadding = 14;

@@ -82,6 +82,11 @@ void StatisticsPanel::addThreshold(QGridLayout& layout) {
          "which the table ignores, too"));
   auto* row = make_row({label, threshold_, kRoom}, {.spacing = theme::kSpacing});
   layout.addLayout(row, 4, 0, 1, static_cast<int>(names_.size()));
+  bad_part_ = named("statistics.bad_part", new QLabel(this));
+  bad_part_->setWordWrap(true);
+  bad_part_->setText(tr("bad: of the visible part, without the border of 15 px"));
+  theme::mute(bad_part_);
+  layout.addWidget(bad_part_, 5, 0, 1, static_cast<int>(names_.size()));
   connect(threshold_, &NumberSpin::valueChanged, this, &StatisticsPanel::badThresholdEdited);
 }
 
@@ -97,6 +102,7 @@ void StatisticsPanel::setSummary(const Summary& summary) {
   }
   values_[kBad]->setText(summary.bad_percent ? tr("%1 %").arg(*summary.bad_percent, 0, 'f', 2)
                                              : QString("–"));
+  bad_part_->setVisible(summary.bad_percent.has_value());
   values_[kInvalid]->setText(QLocale::c().toString(static_cast<qulonglong>(statistics.invalid)));
 }
 
@@ -104,6 +110,7 @@ void StatisticsPanel::clear(const QString& why) {
   title_->setFullText(why);
   histogram_->setHistogram({}, {});
   for (QLabel* value : values_) value->setText("–");
+  bad_part_->hide();
 }
 
 QString StatisticsPanel::text() const {
@@ -244,11 +251,11 @@ void HistogramView::mouseMoveEvent(QMouseEvent* event) {
 
 ErrorPlotPanel::ErrorPlotPanel(QWidget* parent)
     : QWidget(parent),
-      title_(new ElidedLabel(this)),
+      title_(named("errors.title", new QLabel(this))),
       squares_(named("errors.squares", new LinePlot(this))),
       bad_(named("errors.bad", new LinePlot(this))) {
   setObjectName("errorPlotPanel");
-  title_->setObjectName("errors.title");
+  title_->setWordWrap(true);
   squares_->setAccessibleName(tr("Mean squared error by true disparity"));
   bad_->setAccessibleName(tr("Bad pixels by true disparity"));
   make_column(this, {title_, {squares_, 1}, {bad_, 1}},
@@ -256,13 +263,13 @@ ErrorPlotPanel::ErrorPlotPanel(QWidget* parent)
 }
 
 void ErrorPlotPanel::setPlots(const QString& title, const Plot& squares, const Plot& bad) {
-  title_->setFullText(title);
+  title_->setText(title);
   squares_->setPlot(squares);
   bad_->setPlot(bad);
 }
 
 void ErrorPlotPanel::clear(const QString& why) {
-  title_->setFullText({});
+  title_->clear();
   for (LinePlot* plot : {squares_, bad_}) {
     plot->setPlot({});
     plot->setEmptyText(why);

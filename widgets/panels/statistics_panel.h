@@ -56,6 +56,7 @@ class StatisticsPanel : public QWidget {
   std::array<QLabel*, 6> names_;
   std::array<QLabel*, 6> values_;
   NumberSpin* threshold_;
+  QLabel* bad_part_;
 };
 
 /// A histogram in the colors of its map, with a handle at each end of the color range. Dragging a
@@ -112,7 +113,7 @@ class ErrorPlotPanel : public QWidget {
   void clear(const QString& why);
 
  private:
-  ElidedLabel* title_;
+  QLabel* title_;
   LinePlot* squares_;
   LinePlot* bad_;
 };

@@ -242,7 +242,9 @@ PaintStyle AnnotateController::styleOf(const StrokeStart& start) const {
 
 bool AnnotateController::requireLabel() {
   if (bench_.labels.current() == 0) {
-    document_.edit([](AnnotationDocument& document) { document.add_painted_label(); });
+    document_.edit([name = bench_.labels.newName()](AnnotationDocument& document) {
+      document.add_painted_label(name);
+    });
   }
   const LabelInfo* label = bench_.labels.info();
   if (!label) return false;
@@ -440,6 +442,8 @@ QString edit_text(EditKind kind) {
       return AnnotateController::tr("label number");
     case EditKind::MoveLabel:
       return AnnotateController::tr("order of labels");
+    case EditKind::ImportSegmentation:
+      return AnnotateController::tr("import of a segmentation");
   }
   return {};
 }

@@ -335,10 +335,25 @@ void ask_to_export_masks(const Workbench& bench, const SegmentController& segmen
 void export_masks(const Workbench& bench, const SegmentController& segment, const QString& folder) {
   const auto segmentation = segment.segmentation();
   if (!segmentation) return;
-  write_in_background(
-      bench.jobs, bench.messages, folder,
+  write_labels_in_background(
+      bench, segment, folder,
       [path = std::filesystem::path(folder.toStdString()), segmentation](const Progress& progress) {
         write_label_masks(path, *segmentation, progress);
+      });
+}
+
+void write_labels_in_background(const Workbench& bench, const SegmentController& segment,
+                                const QString& path, std::function<void(const Progress&)> write,
+                                const std::function<void()>& written) {
+  write_in_background(
+      bench.jobs, bench.messages, path, std::move(write),
+      [bench, path, written, is_up_to_date = segment.isSegmentationUpToDate()] {
+        if (written) written();
+        if (is_up_to_date) return;
+        bench.messages.warn(
+            SegmentationExportText::tr(
+                "%1 holds labels that were out of date: strokes or settings changed since.")
+                .arg(QFileInfo(path).fileName()));
       });
 }
 

@@ -83,6 +83,10 @@ class AnnotationFiles : public QObject {
 /// this view.
 void ask_to_export_masks(const Workbench& bench, const SegmentController& segment);
 void export_masks(const Workbench& bench, const SegmentController& segment, const QString& folder);
+/// As `write_in_background`; warns of labels that were out of date. `written` may be null.
+void write_labels_in_background(const Workbench& bench, const SegmentController& segment,
+                                const QString& path, std::function<void(const Progress&)> write,
+                                const std::function<void()>& written = nullptr);
 
 class MessageBar;
 

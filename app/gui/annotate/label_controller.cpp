@@ -28,6 +28,11 @@ namespace {
 
 constexpr int kLabelKeys = 9;
 
+QString no_labels() {
+  return LabelController::tr(
+      "No labels yet. Add one for each kind of object, then paint a few strokes on the view.");
+}
+
 }  // namespace
 
 namespace {
@@ -67,6 +72,7 @@ LabelController::LabelController(const Workbench& bench, LabelPalette* palette)
   connect(palette_, &LabelPalette::removeRequested, this, &LabelController::remove);
   connect(palette_, &LabelPalette::colorRequested, this, &LabelController::recolor);
   connect(palette_, &LabelPalette::renameRequested, this, &LabelController::setName);
+  connect(palette_, &LabelPalette::mergeRequested, this, &LabelController::merge);
   connect(palette_, &LabelPalette::numberRequested, this, &LabelController::askForNumber);
   connect(palette_, &LabelPalette::moveRequested, this, &LabelController::move);
   connect(&labels_, &LabelChoice::changed, this, &LabelController::show);
@@ -109,7 +115,12 @@ void LabelController::addChoiceCommands() {
                         .text = tr("Next label"),
                         .tip = tr("Paints with the next label"),
                         .keys = {Qt::Key_N},
-                        .run = [this] { labels_.chooseNext(); }},
+                        .run =
+                            [this] {
+                              labels_.chooseNext();
+                              if (labels_.current() == 0) bench_.messages.hint(no_labels());
+                            },
+                        .enabled = [this] { return hasDocument(); }},
                        {.id = "annotate.swap_labels",
                         .text = tr("Swap labels"),
                         .tip = tr("Returns to the label used before"),
@@ -149,7 +160,8 @@ void LabelController::addEditCommands() {
       "merge_label", tr("Merge into…"),
       tr("Gives everything painted with the current label to another one, "
          "and removes it"),
-      {}, {}, [this] { merge(); }, [this] { return document_.labels().labels().size() > 1; });
+      {}, {}, [this] { merge(labels_.current()); },
+      [this] { return document_.labels().labels().size() > 1; });
   add_one(
       "renumber_label", tr("Change number…"),
       tr("Gives the current label another number, in everything painted with it"), {}, {},
@@ -179,11 +191,9 @@ void LabelController::show() {
 }
 
 void LabelController::showHint() {
-  palette_->setHint(
-      hasDocument() ? tr("No labels yet. Add one for each kind of object, then paint a few strokes "
-                         "on the view.")
-      : bench_.viewer_area.isPreviewing() ? tr("The light field is still loading.")
-                                          : tr("Open a light field to label it."));
+  palette_->setHint(hasDocument()                       ? no_labels()
+                    : bench_.viewer_area.isPreviewing() ? tr("The light field is still loading.")
+                                                        : tr("Open a light field to label it."));
 }
 
 // By its place in the list, from 1.
@@ -206,7 +216,7 @@ void LabelController::choose(int place) {
 
 void LabelController::add() {
   int id = 0;
-  document_.edit([&](AnnotationDocument& document) { id = document.add_label(); });
+  document_.edit([&](AnnotationDocument& document) { id = document.add_label(labels_.newName()); });
   if (id == 0) return;
   labels_.choose(id);
   rename();
@@ -227,8 +237,8 @@ void LabelController::setName(int id, const QString& typed) {
   if (!is_renamed) show();  // the row holds what was typed
 }
 
-void LabelController::merge() {
-  const LabelInfo* label = labels_.info();
+void LabelController::merge(int from) {
+  const LabelInfo* label = find(from);
   if (!label || refuseLocked(*label, tr("“%1” is locked: unlock it to merge it."))) return;
   QStringList names;
   std::vector<int> ids;

@@ -28,7 +28,7 @@ class LabelController : public QObject {
   void add();
   void rename();
   /// Asks for the label that takes over what is painted with the current one.
-  void merge();
+  void merge(int from);
   /// Asks first if the label has been painted.
   void remove(int id);
   void recolor(int id);

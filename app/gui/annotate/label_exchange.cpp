@@ -293,9 +293,7 @@ void LabelImporter::use(const io::ImportedLabels& labels, LabelUse use, const QS
     bench_.messages.success(tr("Labels are now compared with %1").arg(name));
     return;
   }
-  const bool is_segmentation = use == LabelUse::Segmentation;
-  const KeptLabels former = session_.labels();
-  if (is_segmentation) {
+  if (use == LabelUse::Segmentation) {
     useAsSegmentation(labels);
   } else if (!document_.edit([&](AnnotationDocument& document) {
                import_scribbles(document, labels.scribbles);
@@ -305,11 +303,7 @@ void LabelImporter::use(const io::ImportedLabels& labels, LabelUse use, const QS
   }
   QStringList sentences{tr("Imported: %1").arg(name)};
   for (const std::string& note : labels.notes) sentences << QString::fromStdString(note);
-  if (!is_segmentation) return bench_.messages.success(sentences.join("\n"));
-  bench_.messages.offer(sentences.join("\n"), tr("Undo"),
-                        [this, former, generation = session_.generation()] {
-                          if (generation == session_.generation()) emit undone(former);
-                        });
+  bench_.messages.success(sentences.join("\n"));
 }
 
 void LabelImporter::useAsSegmentation(const io::ImportedLabels& labels) {
@@ -321,7 +315,7 @@ void LabelImporter::useAsSegmentation(const io::ImportedLabels& labels) {
   const std::vector<LabelInfo> infos = imported.labels().labels();
   for (const LabelInfo& info : infos) labeling->probabilities.ids.push_back(info.id);
   document_.edit([&](AnnotationDocument& document) {
-    import_scribbles(document, {{}, infos});  // names and colors
+    import_scribbles(document, {{}, infos}, EditKind::ImportSegmentation);  // names and colors
   });
   if (!labeling->labels.contains(session_.view())) session_.set_view(labeling->labels.first());
   emit segmented(labeling);
@@ -502,19 +496,11 @@ void export_labels(const Workbench& bench, const SegmentController& segment, con
       write_segmentation(place, *segmentation, source, stored, progress);
     };
   }
-  const bool is_up_to_date = segment.isSegmentationUpToDate();
-  write_in_background(
-      bench.jobs, bench.messages, path, write,
-      [bench, is_up_to_date, is_whole = target.kind != Kind::Picture,
-       name = QFileInfo(path).fileName(), scene = bench.session.generation(),
+  write_labels_in_background(
+      bench, segment, path, write,
+      [bench, is_whole = target.kind != Kind::Picture, scene = bench.session.generation(),
        labeling = bench.session.labels().labeling] {
         if (is_whole) bench.session.mark_labels_saved(scene, labeling);
-        if (is_up_to_date) return;
-        bench.messages.warn(
-            ExportLabelsDialog::tr(
-                "%1 holds labels that were out of date: strokes or settings changed "
-                "since.")
-                .arg(name));
       });
 }
 

@@ -49,8 +49,6 @@ class LabelImporter : public QObject {
  signals:
   /// Labels that are to be shown as the segmentation of the light field in front.
   void segmented(const LabelingPtr& labeling);
-  /// The labels that were shown before those are wanted back.
-  void undone(const KeptLabels& former);
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;

@@ -5,6 +5,7 @@
 #include "app/gui/scene/viewer_area.h"
 #include "app/gui/shell/commands.h"
 #include "app/gui/shell/frame.h"
+#include "widgets/controls/text.h"
 #include "widgets/panels/segment_panel.h"
 #include "widgets/panels/view_grid.h"
 
@@ -79,6 +80,7 @@ void SegmentController::connectDocument() {
   connect(&bench_.labels, &LabelChoice::relabeled, this, &SegmentController::relabel);
   connect(&document_, &DocumentController::steppedBack, this,
           [this](const DocumentChange&, const Edit& edit, bool is_undo) {
+            if (edit.kind == EditKind::ImportSegmentation) stepOverImport(is_undo);
             if (edit.kind != EditKind::RenumberLabel || !edit.labels) return;
             const int before = only_in(edit.labels->before, edit.labels->after);
             const int after = only_in(edit.labels->after, edit.labels->before);
@@ -155,8 +157,15 @@ bool SegmentController::isComing() const {
 
 QString SegmentController::title(render::Quantity quantity) const {
   const LabelInfo* label = bench_.labels.info();
-  if (quantity != render::Quantity::Probability || !label) return {};
-  return tr("probability of “%1”").arg(QString::fromStdString(label->name));
+  const bool is_of_label = quantity == render::Quantity::Probability && label;
+  const QString name = is_of_label
+                           ? tr("probability of “%1”").arg(QString::fromStdString(label->name))
+                           : quantity_label(quantity);
+  const bool is_outdated = quantity != render::Quantity::Edges && !live_.is_running() &&
+                           live_.labeling(session_.view()) &&
+                           !live_.is_up_to_date(session_.view()) &&
+                           !live_.is_before_strokes(session_.view());
+  return is_outdated ? tr("%1, out of date").arg(name) : name;
 }
 
 std::optional<MapSource> SegmentController::map_source(render::Quantity quantity,
@@ -397,10 +406,11 @@ SegmentController::State SegmentController::state() const {
     case LiveState::Refining:
       if (!live_.corrected_views().empty()) return {correcting(), ChipMood::Busy};
       return {tr("refining … %1").arg(seconds), ChipMood::Busy};
-    case LiveState::Hint:
-      return {tr("waiting"), ChipMood::Hint};
     case LiveState::Failed:
       return {tr("failed"), ChipMood::Failed};
+    case LiveState::Hint:
+      if (live_.labeling(session_.view())) break;  // out of date: of strokes that are gone
+      return {tr("waiting"), ChipMood::Hint};
     case LiveState::Idle:
     case LiveState::OutOfDate:
       break;
@@ -511,6 +521,8 @@ void SegmentController::finishAll(const LabelingPtr& labeling,
 }
 
 void SegmentController::endAllViewsOfClosed() {
+  std::erase_if(imports_,
+                [this](const auto& each) { return !session_.find_scene(each.first.first); });
   std::erase_if(awaiting_, [this](std::uint64_t each) { return !session_.find_scene(each); });
   for (auto each = all_views_.begin(); each != all_views_.end();) {
     const bool is_open = session_.find_scene(each->first) != nullptr;
@@ -553,12 +565,24 @@ void SegmentController::restore() {
 
 void SegmentController::takeLabels(const LabelingPtr& labeling) {
   if (!live_.has_input()) return;
+  const KeptLabels former = session_.labels();
   noteInput();
   KeptLabels kept = kept_labels(labeling, document_.labels().labels(), *live_.input());
   kept.is_imported = true;
+  imports_[{session_.generation(), document_.document()->state()}] = {former, kept};
   session_.set_labels(session_.generation(), kept);
   wants_to_show_ = true;
   adopt(kept);
+}
+
+// An import is a step of the history, which knows nothing of labels that are no strokes.
+void SegmentController::stepOverImport(bool is_undo) {
+  const History<Edit>& history = document_.document()->history();
+  const std::size_t step = history.applied_count() + (is_undo ? 1 : 0);
+  const auto import = imports_.find({session_.generation(), history.state_after(step)});
+  if (import != imports_.end()) {
+    putBack(is_undo ? import->second.before : import->second.after);
+  }
 }
 
 void SegmentController::putBack(const KeptLabels& kept) {

@@ -20,6 +20,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
 
 namespace episcope {
 
@@ -56,10 +57,9 @@ class SegmentController : public QObject, public MapProvider {
   [[nodiscard]] std::optional<Segmentation> segmentation() const;
   /// Whether those are of the present strokes and settings in all their views.
   [[nodiscard]] bool isSegmentationUpToDate() const;
-  /// Shows labels from elsewhere in place of the newest ones, until strokes or settings change.
+  /// Shows labels from elsewhere in place of the newest ones, until strokes or settings change, or
+  /// until the newest edit, their import, is undone.
   void takeLabels(const LabelingPtr& labeling);
-  /// Shows these labels of the scene, or none, in place of all others.
-  void putBack(const KeptLabels& kept);
   /// Smooths the boundaries of all labels, as one step of the history.
   void smoothBoundaries(double smoothing_px);
 
@@ -102,6 +102,9 @@ class SegmentController : public QObject, public MapProvider {
   void keep(const LabelingPtr& labeling, const LabelingInput& input);
   void restore();
   void adopt(const KeptLabels& kept);
+  /// Shows these labels of the scene, or none, in place of all others.
+  void putBack(const KeptLabels& kept);
+  void stepOverImport(bool is_undo);
   [[nodiscard]] State state() const;
   [[nodiscard]] QString correcting() const;
   void showState();
@@ -131,7 +134,13 @@ class SegmentController : public QObject, public MapProvider {
   std::shared_ptr<const LabelingInput> tried_all_;
   std::map<std::uint64_t, quint64> all_views_;  // the newest job of each scene
   std::set<std::uint64_t> awaiting_;            // scenes whose views are segmented after that
-  std::uint64_t restored_ = 0;                  // scene whose kept labels were brought back
+  struct Import {
+    KeptLabels before;
+    KeptLabels after;
+  };
+  std::map<std::pair<std::uint64_t, std::uint64_t>, Import>
+      imports_;                 // by scene and state after it
+  std::uint64_t restored_ = 0;  // scene whose kept labels were brought back
   LabelScores scores_;
   LiveLabeler live_;
 };

@@ -173,7 +173,7 @@ void Photographs::askForRectified() {
 
 void Photographs::calibrate(const QStringList& photographs, const capture::Pattern& pattern) {
   bench_.jobs.start<capture::Calibration>(
-      Lane::Capture, tr("Calibrating the lens"),
+      Lane::Capture, job_title(tr("Calibrating the lens"), bench_.session),
       [files = paths_of(photographs), pattern](const Progress& progress) {
         return capture::calibrate(files, pattern, progress);
       },
@@ -238,7 +238,7 @@ void Photographs::rectify(const QString& path) {
   if (!canRectify() || !is_new_light_field(path, bench_.messages)) return;
   const RectifyTask task{*bench_.session.scene(), documents_.now().work(), path_of(path)};
   bench_.jobs.start<CaptureWork>(
-      Lane::Capture, tr("Rectifying"),
+      Lane::Capture, job_title(tr("Rectifying"), bench_.session),
       [task](const Progress& progress) { return rectify_to_file(task, progress).work; },
       [this, path](const CaptureWork& work) {
         bench_.opener.open(path, [this, work] { documents_.begin(work); });

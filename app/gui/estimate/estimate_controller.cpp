@@ -174,8 +174,11 @@ void EstimateController::addTab() {
 }
 
 void EstimateController::connectResults() {
-  connect(results_, &ResultList::selected, this,
-          [this](quint64 id) { session_.show_estimate(static_cast<int>(id)); });
+  connect(results_, &ResultList::selected, this, [this](quint64 id) {
+    const int row = static_cast<int>(id);
+    const EstimateEntry* entry = session_.find_estimate(row);
+    entry && entry->is_new ? runs_.show(row) : session_.show_estimate(row);
+  });
   connect(results_, &ResultList::compareRequested, this,
           [this](quint64 id) { session_.compare_with(static_cast<int>(id)); });
   connect(results_, &ResultList::removeRequested, this,

@@ -181,10 +181,10 @@ QString LiveController::status() const {
   if (estimator_.is_running()) {
     return begun + tr("%1 %").arg(percent_done(estimator_.fraction()));
   }
-  if (!estimator_.full_seconds()) return tr("Live");
-  const QString done = begun + tr("full %1").arg(time_text(*estimator_.full_seconds()));
-  const bool has_view =
-      !estimator_.map() || estimator_.map()->estimate->contains(bench_.session.view());
+  if (!estimator_.full_seconds() || !estimator_.map()) return tr("Live");
+  const EstimatePtr& estimate = estimator_.map()->estimate;  // its time, as in the list
+  const QString done = begun + tr("full %1").arg(time_text(estimate->seconds));
+  const bool has_view = estimate->contains(bench_.session.view());
   return has_view ? done : tr("Live: this method has no map of this view");
 }
 
@@ -226,6 +226,7 @@ void MethodRuns::run(const EstimateRequest& request, const OpenScene& scene, boo
       });
   runs_[job] = scene.id;
   bench_.jobs.setScene(job, scene.id);
+  if (!was_asked_for) bench_.jobs.setExpendable(job);
   if (info.iterative) bench_.jobs.setIterative(job);
   emit changed();
 }
@@ -238,9 +239,24 @@ bool MethodRuns::isComparing(std::uint64_t scene) const {
 
 void MethodRuns::offerToShow(int estimate) {
   const EstimateEntry* entry = bench_.session.find_estimate(estimate);
-  if (!entry || !entry->is_new) return;
+  if (!entry) return;
+  const render::Quantity map = bench_.overlay.quantity();
+  const bool is_seen = (map == Quantity::View || is_of_result(map)) &&
+                       entry->estimate->contains(bench_.session.view());
+  if (is_seen && !entry->is_new) return;
+  bench_.session.mark_new(estimate);
   bench_.messages.offer(tr("New result: %1").arg(QString::fromStdString(entry->name)), tr("Show"),
-                        [this, estimate] { bench_.session.show_estimate(estimate); });
+                        [this, estimate] { show(estimate); });
+}
+
+void MethodRuns::show(int estimate) {
+  Session& session = bench_.session;
+  const EstimateEntry* entry = session.find_estimate(estimate);
+  if (!entry) return;
+  if (!entry->estimate->contains(session.view()))
+    session.set_view(entry->estimate->field.disparity.first());
+  session.show_estimate(estimate);
+  bench_.overlay.showResults();
 }
 
 bool MethodRuns::isRunning(std::uint64_t scene) const {

@@ -80,6 +80,8 @@ class MethodRuns : public QObject {
   [[nodiscard]] bool isRunning(std::uint64_t scene) const;
   /// Jobs of all runs on the scene.
   [[nodiscard]] std::vector<quint64> jobsOn(std::uint64_t scene) const;
+  /// Shows a result of the scene in front, in a view that it has.
+  void show(int estimate);
 
  signals:
   /// A run began or ended.
@@ -89,7 +91,7 @@ class MethodRuns : public QObject {
   void cancelClosed();
   /// Whether the tab that compares is in front, and shows this open scene.
   [[nodiscard]] bool isComparing(std::uint64_t scene) const;
-  /// Tells of a result that came while others were compared.
+  /// Tells of a result that came while others were compared, or something else was looked at.
   void offerToShow(int estimate);
 
   Workbench bench_;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/estimate/sweep_chart.h"
 
-#include "engine/core/text.h"
 #include "engine/disparity/registry.h"
 #include "widgets/controls/text.h"
 
@@ -92,8 +91,7 @@ QString unfinished_text(const Sweep& sweep) {
   const auto described = described_under(parameters, sweep.base.parameters);
   const std::size_t planned =
       sweep_points(described, sweep.base.parameters, sweep.swept).size() * sweep.scenes.size();
-  std::size_t done = 0;
-  for (const SweepScene& scene : sweep.scenes) done += scene.points.size();
+  const std::size_t done = point_count(sweep);
   return done < planned ? SweepPlotText::tr(" (%1 of %2 runs)").arg(done).arg(planned) : QString();
 }
 
@@ -170,10 +168,13 @@ QString title_of(const Sweep& sweep) {
                    unfinished_text(sweep);
 }
 
-std::string name_of(const Sweep& sweep, const SweepPoint& point) {
-  return find_estimator(sweep.base.method).info.name + ", " +
-         joined(point.point, ", ",
-                [](const auto& each) { return each.first + " " + to_text(each.second); });
+QString name_of(const Sweep& sweep, const SweepPoint& point) {
+  const Estimator& method = find_estimator(sweep.base.method);
+  QStringList texts{QString::fromStdString(method.info.name)};
+  for (const auto& [key, value] : point.point) {
+    texts << labeled_value_text(method.parameters, key, value);
+  }
+  return texts.join(", ");
 }
 
 QString text_of(const Sweep& sweep, SweepPlace place) {
@@ -181,12 +182,7 @@ QString text_of(const Sweep& sweep, SweepPlace place) {
   const SweepPoint& point = scene.points[place.point];
   QStringList texts;
   if (sweep.scenes.size() > 1) texts << QString::fromStdString(scene.name);
-  const Estimator& estimator = find_estimator(sweep.base.method);
-  QStringList parts{QString::fromStdString(estimator.info.name)};
-  for (const auto& [key, value] : point.point) {
-    parts << labeled_value_text(estimator.parameters, key, value);
-  }
-  texts << parts.join(", ");
+  texts << name_of(sweep, point);
   if (!point.problem.empty()) texts << QString::fromStdString(point.problem);
   if (const auto mse = measure_of(point, SweepMeasure::MseTimes100)) {
     texts << SweepPlotText::tr("MSE×100 %1").arg(number_text(*mse, 3));

@@ -9,7 +9,6 @@
 
 #include <cstddef>
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace episcope {
@@ -42,7 +41,7 @@ struct SweepChart {
 /// "EPI_L, inner_scale · 3 light fields"
 [[nodiscard]] QString title_of(const Sweep& sweep);
 /// "EPI_L, lambda 0.2"
-[[nodiscard]] std::string name_of(const Sweep& sweep, const SweepPoint& point);
+[[nodiscard]] QString name_of(const Sweep& sweep, const SweepPoint& point);
 /// Name and scores of a point, or its failure; with the light field if there are several.
 [[nodiscard]] QString text_of(const Sweep& sweep, SweepPlace point);
 

@@ -323,8 +323,8 @@ void SweepController::end(quint64 id) {
     const auto failed = std::ranges::find_if(
         scene.points, [](const SweepPoint& point) { return !point.problem.empty(); });
     if (failed == scene.points.end()) continue;
-    bench_.messages.warn(tr("%1: %2").arg(QString::fromStdString(name_of(*sweep, *failed)),
-                                          QString::fromStdString(failed->problem)));
+    bench_.messages.warn(
+        tr("%1: %2").arg(name_of(*sweep, *failed), QString::fromStdString(failed->problem)));
     return;
   }
 }
@@ -382,7 +382,7 @@ void SweepController::showMap(SweepPlace place, const EstimatePtr& map) {
   const SweepPoint& point = *bench_.scenes.sweeps().find(current_, place);
   const int id = session.add_estimate(map, point.display_range, session.generation());
   session.show_estimate(id);  // it was asked for
-  session.rename_estimate(id, name_of(*current(), point));
+  session.rename_estimate(id, name_of(*current(), point).toStdString());
   shown_[session.generation()] = {id, session.find_estimate(id)->name};
   bench_.overlay.showResults();
 }
@@ -393,7 +393,7 @@ void SweepController::runAgain(SweepPlace place) {
   const EstimateRequest request{sweep.base.method, values_at(sweep.base.parameters, point.point),
                                 sweep.base.options};
   const quint64 job = bench_.jobs.start<FinishedEstimate>(
-      Lane::Estimate, QString::fromStdString(name_of(sweep, point)),
+      Lane::Estimate, job_title(name_of(sweep, point), bench_.session),
       [scene = bench_.session.scene(), request](const Progress& progress) {
         return run_estimator(*scene, find_estimator(request.method), request.parameters,
                              request.options, progress);

@@ -6,6 +6,7 @@
 #include "app/gui/shell/commands.h"
 #include "app/gui/shell/dialogs.h"
 #include "app/gui/shell/frame.h"
+#include "app/gui/shell/jobs.h"
 #include "app/session/load_scene.h"
 #include "app/session/user_folders.h"
 #include "engine/core/error.h"
@@ -246,7 +247,7 @@ void SessionRecovery::offer(const OrphanedWorkspace& left) {
   bar_->showMessage(Severity::Warning,
                     tr("Episcope ended unexpectedly (%1). What was open can be recovered: %2.")
                         .arg(short_text(left.last_change), content_of(left.project)),
-                    {tr("Recover"), [this, left] { recover(left); }},
+                    {tr("Recover"), [this, left] { takeOver(left); }},
                     {tr("Discard…"), [this, left] { askToDiscard(left); }});
 }
 
@@ -265,10 +266,6 @@ void SessionRecovery::askToDiscard(const OrphanedWorkspace& left) {
         offerNext();
       },
       [this, left] { offer(left); });
-}
-
-void SessionRecovery::recover(const OrphanedWorkspace& left) {
-  bench_.guards.leave(Leaving::Session, [this, left] { takeOver(left); });
 }
 
 void SessionRecovery::takeOver(const OrphanedWorkspace& left) {
@@ -314,16 +311,30 @@ void read_strokes(ReadProject& read) {
 
 namespace {
 
-// A built-in scene is what a start without a file shows.
-bool gives_way(const OpenScene& open, const Project& project) {
-  return !builtin_scene_id(open.input).empty() ||
-         std::ranges::count(project.scenes, open.input, &ProjectScene::input) > 0;
+bool has_unsaved_work(const Workbench& bench, const OpenScene& open) {
+  const auto unsaved = bench.document.unsavedScenes();
+  const auto is_running_in = [&](Lane lane) {
+    return std::ranges::any_of(bench.jobs.running(lane), [&](const Jobs::Running& each) {
+      return each.scene == open.id && !each.is_expendable;
+    });
+  };
+  return !std::ranges::all_of(open.estimates, &EstimateEntry::is_saved) ||
+         open.labels.is_worth_keeping() || has_work(open.place) ||
+         std::ranges::count(unsaved, open.id) > 0 || is_running_in(Lane::Estimate) ||
+         is_running_in(Lane::Label);
+}
+
+// A built-in scene is what a start without a file shows. Whatever was done stays open.
+bool gives_way(const Workbench& bench, const OpenScene& open, const Project& project) {
+  return (!builtin_scene_id(open.input).empty() ||
+          std::ranges::count(project.scenes, open.input, &ProjectScene::input) > 0) &&
+         !has_unsaved_work(bench, open);
 }
 
 void make_way(const Workbench& bench, const Project& project, ProjectOrigin origin) {
   bench.jobs.cancelLane(Lane::Open);
   for (const OpenScene* each : bench.session.scenes()) {
-    if (origin == ProjectOrigin::Crash && !gives_way(*each, project)) continue;
+    if (origin == ProjectOrigin::Crash && !gives_way(bench, *each, project)) continue;
     const std::uint64_t id = each->id;
     id == bench.session.generation() ? bench.session.close() : bench.session.remove(id);
   }

@@ -98,7 +98,6 @@ class SessionRecovery : public QObject {
   void offerNext();
   void offer(const OrphanedWorkspace& left);
   void askToDiscard(const OrphanedWorkspace& left);
-  void recover(const OrphanedWorkspace& left);
   void takeOver(const OrphanedWorkspace& left);
 
   Workbench bench_;

@@ -8,7 +8,6 @@
 #include "app/gui/scene/viewer_area.h"
 #include "app/gui/shell/dialogs.h"
 #include "app/gui/shell/frame.h"
-#include "app/gui/shell/jobs.h"
 #include "app/session/load_scene.h"
 #include "app/session/open_scene.h"
 #include "app/session/project_file.h"
@@ -244,7 +243,7 @@ void ProjectController::move(quint64 scene, const QString& input) {
 namespace {
 
 // What takes long and ends with something to keep.
-constexpr Lane kLanesOfWork[] = {Lane::Estimate, Lane::Label};
+constexpr Lane kLanesOfWork[] = {Lane::Capture, Lane::Estimate, Lane::Label, Lane::Export};
 
 QString list_of(const std::vector<std::string>& names) {
   QStringList texts;
@@ -273,9 +272,7 @@ ProjectGuard::ProjectGuard(const Workbench& bench, ProjectController& project)
   });
   bench.scenes.sweeps().on_changed([this] { is_settled_ = false; });
   connect(&bench.jobs, &Jobs::added, this, [this] {
-    const int count = runningCount();
-    if (count == 1 && !is_settled_) running_.start();
-    if (count > settled_jobs_) is_settled_ = false;
+    if (running(Leaving::Session).size() > settled_jobs_) is_settled_ = false;
   });
 }
 
@@ -293,18 +290,14 @@ ProjectGuard::Loss ProjectGuard::loss(Leaving what) const {
   for (const Sweep& sweep : bench_.scenes.sweeps().all()) {
     const bool is_left = what != Leaving::Scene ||
                          std::ranges::count(sweep.scenes, session.generation(), &SweepScene::scene);
-    if (is_left && !sweep.is_saved && (has_file || seconds_of(sweep) >= worth_keeping_s_)) {
+    if (is_left && !sweep.is_saved && point_count(sweep) > 0) {
       loss.results.push_back(
           tr("sweep of %1").arg(QString::fromStdString(sweep.base.method)).toStdString());
     }
   }
-  if (isRunning()) {
-    for (const Lane lane : kLanesOfWork) {
-      for (const Jobs::Running& each : bench_.jobs.running(lane)) {
-        loss.running.push_back(
-            tr("%1 (%2 %)").arg(each.title).arg(percent_done(each.fraction)).toStdString());
-      }
-    }
+  for (const Jobs::Running& each : running(what)) {
+    loss.running.push_back(
+        tr("%1 (%2 %)").arg(each.title).arg(percent_done(each.fraction)).toStdString());
   }
   if (what != Leaving::Session) return loss;
   loss.of_project = project_.hasChanged();
@@ -317,38 +310,29 @@ ProjectGuard::Loss ProjectGuard::loss(Leaving what) const {
 }
 
 void ProjectGuard::addResults(const OpenScene& scene, Loss& loss) const {
-  const bool has_file = !project_.file().isEmpty();
-  const auto is_worth_it = [&](double seconds) { return has_file || seconds >= worth_keeping_s_; };
   const auto add = [&](const QString& what) {
     loss.results.push_back(job_title(what, scene).toStdString());
   };
-  double all_seconds = 0;
   for (const EstimateEntry& entry : scene.estimates) {
-    if (entry.is_saved) continue;
-    all_seconds += entry.estimate ? entry.estimate->seconds : worth_keeping_s_;
-  }
-  for (const EstimateEntry& entry : scene.estimates) {
-    if (!entry.is_saved && is_worth_it(all_seconds)) add(QString::fromStdString(entry.name));
+    if (!entry.is_saved) add(QString::fromStdString(entry.name));
   }
   const KeptLabels& labels = scene.labels;
   const bool is_on_disk_alone = !labels.labeling && !labels.file.empty();
   if (labels.is_saved || !(labels.is_worth_keeping() || is_on_disk_alone)) return;
-  // What was read from a file does not say how long it took.
-  const double seconds = labels.labeling ? labels.labeling->seconds : 0;
-  if (!is_worth_it(seconds > 0 ? seconds : worth_keeping_s_)) return;
   add(labels.covers_many() || is_on_disk_alone ? tr("labels of all views")
                                                : tr("labels of one view"));
 }
 
-int ProjectGuard::runningCount() const {
-  int count = 0;
-  for (const Lane lane : kLanesOfWork) count += bench_.jobs.count(lane);
-  return count;
-}
-
-bool ProjectGuard::isRunning() const {
-  return runningCount() > 0 && running_.isValid() &&
-         static_cast<double>(running_.elapsed()) >= 1000 * worth_keeping_s_;
+// A light field that is closed ends the jobs on it alone.
+std::vector<Jobs::Running> ProjectGuard::running(Leaving what) const {
+  std::vector<Jobs::Running> all;
+  for (const Lane lane : kLanesOfWork) {
+    for (Jobs::Running& each : bench_.jobs.running(lane)) {
+      const bool is_left = what != Leaving::Scene || each.scene == bench_.session.generation();
+      if (is_left && !each.is_expendable) all.push_back(std::move(each));
+    }
+  }
+  return all;
 }
 
 QString ProjectGuard::sentence(const Loss& loss) {
@@ -404,7 +388,7 @@ void ProjectGuard::answer(QMessageBox::StandardButton button, Leaving what, cons
   if (button == QMessageBox::SaveAll) project_.save([this, what, go_on] { ask(what, go_on); });
   if (button != QMessageBox::Discard) return;
   is_settled_ = true;
-  settled_jobs_ = runningCount();
+  settled_jobs_ = running(Leaving::Session).size();
   if (what == Leaving::Session) bench_.document.discardAll();
   go_on();
 }

@@ -2,16 +2,17 @@
 #pragma once
 
 #include "app/gui/shell/commands.h"
+#include "app/gui/shell/jobs.h"
 #include "app/gui/shell/workbench.h"
 #include "app/session/open_scene.h"
 #include "app/session/user_folders.h"
 
-#include <QElapsedTimer>
 #include <QMessageBox>
 #include <QObject>
 #include <QPointer>
 #include <QString>
 
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <vector>
@@ -60,16 +61,13 @@ class ProjectController : public QObject {
   std::string saved_content_;  // what it holds
 };
 
-/// Asks once before losing expensive results and labels, scribbles of other scenes, project changes
-/// or running work; offers to save a project.
+/// Asks once before losing results and labels that somebody asked for, scribbles of other scenes,
+/// project changes or running work; offers to save a project.
 class ProjectGuard : public QObject {
   Q_OBJECT
 
  public:
   ProjectGuard(const Workbench& bench, ProjectController& project);
-
-  /// Results computed in less time are not worth a question: 5 s by default.
-  void setWorthKeeping(double seconds) { worth_keeping_s_ = seconds; }
 
  private:
   using Continue = LeaveGuards::Continue;
@@ -81,7 +79,7 @@ class ProjectGuard : public QObject {
     std::vector<std::string> picked;     ///< of those with pairs for ground truth,
     std::vector<std::string> measured;   ///< and of those with lines kept of EPIs.
     bool of_project = false;             ///< Other changes of a project that has a file.
-    std::vector<std::string> running;    ///< Methods and segmentations, with their progress.
+    std::vector<std::string> running;    ///< Jobs, with their progress.
     [[nodiscard]] bool empty() const { return !has_unsaved() && running.empty(); }
     [[nodiscard]] bool has_unsaved() const {
       return !results.empty() || !scribbled.empty() || !picked.empty() || !measured.empty() ||
@@ -91,18 +89,15 @@ class ProjectGuard : public QObject {
 
   [[nodiscard]] Loss loss(Leaving what) const;
   void addResults(const OpenScene& scene, Loss& loss) const;
-  [[nodiscard]] int runningCount() const;
-  [[nodiscard]] bool isRunning() const;
+  [[nodiscard]] std::vector<Jobs::Running> running(Leaving what) const;
   [[nodiscard]] static QString sentence(const Loss& loss);
   void ask(Leaving what, const Continue& go_on);
   void answer(QMessageBox::StandardButton button, Leaving what, const Continue& go_on);
 
   Workbench bench_;
   ProjectController& project_;
-  double worth_keeping_s_ = 5;
-  QElapsedTimer running_;    // since the first of the jobs that run was started
-  int settled_jobs_ = 0;     // that ran when the user said so:
-  bool is_settled_ = false;  // what is there now may go
+  std::size_t settled_jobs_ = 0;  // that ran when the user said so:
+  bool is_settled_ = false;       // what is there now may go
   QPointer<QMessageBox> question_;
 };
 

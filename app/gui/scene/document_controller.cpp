@@ -409,6 +409,10 @@ const LabelInfo* LabelChoice::info() const {
   return document_.labels().find(current_);
 }
 
+std::string LabelChoice::newName() const {
+  return tr("label %1").arg(document_.labels().next_id()).toStdString();
+}
+
 bool LabelChoice::choose(int id) {
   if (!document_.labels().contains(id)) return false;
   if (id == current_) return true;

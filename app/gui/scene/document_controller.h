@@ -164,6 +164,8 @@ class LabelChoice : public QObject {
   [[nodiscard]] int current() const { return current_; }
   /// The current label; null without labels.
   [[nodiscard]] const LabelInfo* info() const;
+  /// Name for a label to add, in the language of the window.
+  [[nodiscard]] std::string newName() const;
   /// Returns whether the label exists.
   bool choose(int id);
   void chooseNext();

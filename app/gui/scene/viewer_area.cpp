@@ -17,7 +17,6 @@
 #include <QStackedLayout>
 
 #include <algorithm>
-#include <functional>
 #include <utility>
 
 namespace episcope {
@@ -29,27 +28,12 @@ constexpr int kCanvasHeight = 500;
 constexpr int kEpiWidth = 145;  // and of the legend under it
 constexpr int kEpiHeight = 92;
 constexpr int kEpiShare = 3;  // of the room at most that an EPI takes by itself
+constexpr int kThinner = 4;   // times at most that one EPI is thinner than the other
 
 // What an EPI gets of `room` while the view needs `wanted` of it.
 int epi_size(int room, int least, int wanted) {
   return std::clamp(room - wanted, least, std::max(least, room / kEpiShare));
 }
-
-/// Tells of each new size once its parts are in their places.
-class ToldSplitter : public QSplitter {
- public:
-  explicit ToldSplitter(std::function<void()> resized)
-      : QSplitter(Qt::Horizontal), resized_(std::move(resized)) {}
-
- protected:
-  void resizeEvent(QResizeEvent* event) override {
-    QSplitter::resizeEvent(event);
-    resized_();
-  }
-
- private:
-  std::function<void()> resized_;
-};
 
 // The legend is as wide as the vertical EPI above it.
 void align(QSplitter& lower, const QSplitter& upper, const QWidget& vertical_epi) {
@@ -127,8 +111,8 @@ void ViewerArea::fitEpis() {
   const auto wanted = [](int other, int other_side, int side) { return other * side / other_side; };
   const int epi_width =
       epi_size(width, kEpiWidth, wanted(height - kEpiHeight, picture.height(), picture.width()));
-  const int epi_height =
-      epi_size(height, kEpiHeight, wanted(width - epi_width, picture.width(), picture.height()));
+  const int epi_height = epi_size(height, std::max(kEpiHeight, epi_width / kThinner),
+                                  wanted(width - epi_width, picture.width(), picture.height()));
   if (is_divided_by_itself(*rows_) && lower_->isVisible()) {
     rows_->setSizes({height - epi_height, epi_height});
   }

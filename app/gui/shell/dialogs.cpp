@@ -16,6 +16,7 @@
 #include <QDir>
 #include <QFileDialog>
 #include <QFileInfo>
+#include <QLineEdit>
 #include <QLocale>
 #include <QPushButton>
 #include <QSettings>
@@ -85,24 +86,44 @@ class NewFolderDialog : public QFileDialog {
   }
 };
 
+// Qt's dialog looks into a folder whose name is typed, instead of taking it.
+class FileOrFolderDialog : public QFileDialog {
+ public:
+  using QFileDialog::QFileDialog;
+
+  void takeFolder(const QString& folder) {
+    emit fileSelected(folder);
+    reject();
+  }
+
+ protected:
+  void accept() override {
+    const QString typed = selectedFiles().value(0);
+    const bool is_typed = qobject_cast<QLineEdit*>(focusWidget()) != nullptr;
+    is_typed&& QFileInfo(typed).isDir() ? takeFolder(typed) : QFileDialog::accept();
+  }
+};
+
 // The folder is given at once, since the dialog would else look into the one it remembers itself.
-QFileDialog* make_dialog(QWidget* window, const FileQuestion& question, const QString& folder) {
-  auto* dialog = question.makes_folder
-                     ? new NewFolderDialog(window, question.title, folder, question.filter)
-                     : new QFileDialog(window, question.title, folder, question.filter);
+template <class Dialog>
+Dialog* make_dialog(QWidget* window, const FileQuestion& question, const QString& folder) {
+  auto* dialog = new Dialog(window, question.title, folder, question.filter);
   dialog->setObjectName(question.name);
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   return dialog;
 }
 
-QFileDialog* make_open_dialog(QWidget* window, const FileQuestion& question) {
-  auto* dialog = make_dialog(window, question, first_of({remembered(kOpenFolder)}, R_OK | X_OK));
+template <class Dialog = QFileDialog>
+Dialog* make_open_dialog(QWidget* window, const FileQuestion& question) {
+  auto* dialog =
+      make_dialog<Dialog>(window, question, first_of({remembered(kOpenFolder)}, R_OK | X_OK));
   QObject::connect(dialog, &QFileDialog::fileSelected, dialog, &begin_dialogs_beside);
   return dialog;
 }
 
-QFileDialog* make_open_dialog(QWidget* window, const FileQuestion& question, Answer answer) {
-  QFileDialog* dialog = make_open_dialog(window, question);
+template <class Dialog = QFileDialog>
+Dialog* make_open_dialog(QWidget* window, const FileQuestion& question, Answer answer) {
+  auto* dialog = make_open_dialog<Dialog>(window, question);
   QObject::connect(dialog, &QFileDialog::fileSelected, window, std::move(answer));
   return dialog;
 }
@@ -132,7 +153,7 @@ void ask_for_file(QWidget* window, const FileQuestion& question, Answer answer) 
 }
 
 void ask_for_file_or_folder(QWidget* window, const FileQuestion& question, Answer answer) {
-  QFileDialog* dialog = make_open_dialog(window, question, std::move(answer));
+  auto* dialog = make_open_dialog<FileOrFolderDialog>(window, question, std::move(answer));
   dialog->setOption(QFileDialog::DontUseNativeDialog);  // those take either files or folders
   dialog->setFileMode(QFileDialog::ExistingFile);
   auto* buttons = dialog->findChild<QDialogButtonBox*>();
@@ -142,9 +163,7 @@ void ask_for_file_or_folder(QWidget* window, const FileQuestion& question, Answe
   button->setAutoDefault(false);
   QObject::connect(button, &QPushButton::clicked, dialog, [dialog] {
     const QString marked = dialog->selectedFiles().value(0);
-    emit dialog->fileSelected(QFileInfo(marked).isDir() ? marked
-                                                        : dialog->directory().absolutePath());
-    dialog->reject();
+    dialog->takeFolder(QFileInfo(marked).isDir() ? marked : dialog->directory().absolutePath());
   });
   dialog->open();
 }
@@ -158,7 +177,9 @@ void ask_for_files(QWidget* window, const FileQuestion& question,
 }
 
 void ask_for_folder(QWidget* window, const FileQuestion& question, Answer answer) {
-  QFileDialog* dialog = make_open_dialog(window, question, std::move(answer));
+  QFileDialog* dialog = question.makes_folder
+                            ? make_open_dialog<NewFolderDialog>(window, question, std::move(answer))
+                            : make_open_dialog(window, question, std::move(answer));
   dialog->setFileMode(QFileDialog::Directory);
   dialog->setOption(QFileDialog::ShowDirsOnly);
   dialog->open();
@@ -167,7 +188,7 @@ void ask_for_folder(QWidget* window, const FileQuestion& question, Answer answer
 void ask_where_to_save(const Workbench& bench, const FileQuestion& question, Answer answer) {
   const QFileInfo proposal(question.proposal);
   const QString proposed = proposal.isAbsolute() ? proposal.absolutePath() : QString();
-  QFileDialog* dialog = make_dialog(
+  auto* dialog = make_dialog<QFileDialog>(
       &bench.window, question,
       first_of({proposed, folder_of_front(bench.session), remembered(kSaveFolder)}, W_OK | X_OK));
   QObject::connect(dialog, &QFileDialog::fileSelected, dialog, [](const QString& path) {

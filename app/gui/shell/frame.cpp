@@ -22,6 +22,7 @@ namespace episcope {
 namespace {
 
 constexpr int kColumnWidth = 205;
+constexpr int kColumnShare = 7;  // of the room that the column shares with the view
 constexpr int kStageWidth = 720;
 constexpr int kTabsWidth = 384;
 
@@ -78,7 +79,7 @@ Frame::Frame(QWidget* parent)
     : QWidget(parent),
       viewer_(named("viewer", new QWidget(this))),
       column_(named("split.column", new QSplitter(Qt::Vertical, viewer_))),
-      browser_(named("split.browser", new QSplitter(Qt::Horizontal, viewer_))),
+      browser_(named("split.browser", new ToldSplitter([this] { fitColumn(); }))),
       floating_(new Floating(*viewer_)),
       panes_(new Panes(*this)) {
   column_->setChildrenCollapsible(false);
@@ -148,6 +149,16 @@ void Frame::setViewerArea(QWidget* viewer_area) {
   floating_->setArea(viewer_area);
   browser_->setStretchFactor(1, 1);  // what a larger window gives belongs to the view
   browser_->setSizes({kColumnWidth, kStageWidth});
+  set_divided_by_itself(*browser_, true);
+  connect(browser_, &QSplitter::splitterMoved, this,
+          [this] { set_divided_by_itself(*browser_, false); });
+}
+
+// On a large screen, the column has room for its texts, until the user drags its edge.
+void Frame::fitColumn() {
+  if (!is_divided_by_itself(*browser_)) return;
+  const int width = std::max(kColumnWidth, browser_->width() / kColumnShare);
+  browser_->setSizes({width, browser_->width() - browser_->handleWidth() - width});
 }
 
 void Frame::addTab(const Tab& tab) {

@@ -104,6 +104,7 @@ class Frame : public QWidget {
   void askWhereTabGoes(const QTabWidget& book, const QPoint& at);
   [[nodiscard]] QTabWidget* makePages(const Tab& task);
   void keepAside(QWidget* pane);
+  void fitColumn();
   /// Pages of a task; null if it has none.
   [[nodiscard]] QTabWidget* pagesOf(const Tab& task) const;
   /// Where a tab belongs among those that are in the book now.

@@ -129,7 +129,8 @@ std::optional<Jobs::Running> Jobs::find(quint64 id) const {
   if (found == jobs_.end()) return std::nullopt;
   const Job& job = found->second;
   const double seconds = job.clock.isValid() ? static_cast<double>(job.clock.elapsed()) / 1000 : 0;
-  return Running{id, job.title, seconds, job.fraction, job.is_cancelling};
+  return Running{id,       job.title, seconds, job.fraction, job.is_cancelling, job.is_expendable,
+                 job.scene};
 }
 
 std::optional<Jobs::Running> Jobs::newest(std::uint64_t scene) const {

@@ -58,6 +58,7 @@ class Jobs : public QObject {
                  return work(progress);
                },
                [this, id, done = std::move(done), ended = std::move(ended)](Outcome<T> outcome) {
+                 setExpendable(id);  // there is nothing left to lose
                  if (outcome.value) done(std::move(*outcome.value));
                  finish(id, outcome.failure);
                  if (ended) ended();
@@ -81,12 +82,16 @@ class Jobs : public QObject {
     double seconds = 0;   ///< Since its first progress.
     double fraction = 0;  ///< Progress, in [0, 1].
     bool is_cancelling = false;
+    bool is_expendable = false;  ///< It may end without a question.
+    std::uint64_t scene = 0;     ///< 0: of no light field.
   };
 
   /// Marks a job that can end early with a partial result.
   void setIterative(quint64 id) { emit endsEarly(id); }
   /// Assigns a job to a light field (OpenScene::id).
   void setScene(quint64 id, std::uint64_t scene) { jobs_[id].scene = scene; }
+  /// Marks a job that may end without a question: nobody asked for it.
+  void setExpendable(quint64 id) { jobs_[id].is_expendable = true; }
   /// Ignored for an unknown id.
   void cancel(quint64 id);
   void cancelLane(Lane lane);
@@ -121,6 +126,7 @@ class Jobs : public QObject {
     QElapsedTimer clock{};
     double fraction = 0;
     bool is_cancelling = false;
+    bool is_expendable = false;
     std::function<void()> cancel{};  // of one that runs elsewhere
   };
   [[nodiscard]] JobRunner& runner(Lane lane) { return *runners_[static_cast<std::size_t>(lane)]; }

@@ -3,6 +3,7 @@
 
 #include <QHash>
 #include <QObject>
+#include <QSplitter>
 #include <QString>
 #include <QStringList>
 #include <QTabWidget>
@@ -97,6 +98,22 @@ class PaneWindow : public QWidget {
 
  protected:
   void closeEvent(QCloseEvent* event) override;
+};
+
+/// Tells of each new size once its parts are in their places.
+class ToldSplitter : public QSplitter {
+ public:
+  explicit ToldSplitter(std::function<void()> resized)
+      : QSplitter(Qt::Horizontal), resized_(std::move(resized)) {}
+
+ protected:
+  void resizeEvent(QResizeEvent* event) override {
+    QSplitter::resizeEvent(event);
+    resized_();
+  }
+
+ private:
+  std::function<void()> resized_;
 };
 
 /// Whether a splitter divides its room by a rule until the user drags in it. Then its sizes are not

@@ -132,7 +132,8 @@ void MainWindowTest::largerWindow_givesItsRoomToTheView() {
   const auto* canvas = f.window.bench().viewer_area.canvas();
   // The picture is square: what is left beside it goes to the EPI.
   QTRY_VERIFY_WITH_TIMEOUT(canvas->width() > view + 700 && canvas->height() > 1200, kPatience);
-  QCOMPARE(f.window.findChild<InfoPanel*>()->width(), side);
+  const int column = f.window.findChild<InfoPanel*>()->width();
+  QVERIFY(column > side && column < side + 120);  // its texts are seen whole
   QCOMPARE(f.window.findChild<QTabWidget*>()->width(), tabs);
 }
 

@@ -2,7 +2,6 @@
 #include "app/gui/compare/compare_controller.h"
 #include "app/gui/estimate/estimate_controller.h"
 #include "app/gui/files/autosave.h"
-#include "app/gui/files/project_controller.h"
 #include "tests/app/gui/paint_stroke.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/bench/window/process.h"
@@ -49,6 +48,8 @@ void round(WindowFixture& f, int number) {
   const auto& autosave = find<Autosave>(f.window);
   (void)QTest::qWaitFor([&] { return autosave.isIdle() && window.bench().jobs.count() == 0; },
                         kPatience);
+  Session& session = f.window.bench().session;
+  for (const EstimateEntry& each : session.estimates()) session.mark_saved(each.id);
   f.window.bench().document.discardAll();
   f.trigger("file.close");
   (void)QTest::qWaitFor([&] { return !window.bench().session.scene(); }, kPatience);
@@ -62,7 +63,6 @@ int objects_in(const QObject& window) {
 
 void measure_soak(int rounds) {
   WindowFixture f;
-  find<ProjectGuard>(f.window).setWorthKeeping(1e9);
   for (const char* id : {"edge", "slant"}) (void)f.writeScene(id, WindowFixture::smallOptions());
   std::printf("%6s %12s %6s %8s %8s\n", "round", "memory, MiB", "files", "threads", "objects");
   for (int number = 0; number <= rounds; ++number) {

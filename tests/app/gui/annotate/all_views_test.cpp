@@ -240,7 +240,6 @@ void AllViewsTest::cancelledDisparity_endsTheWish() {
 
 void AllViewsTest::quit_asksForLabelsOfAllViews() {
   AllViews f;
-  find<ProjectGuard>(f.window).setWorthKeeping(0);
   f.segmentAll();
 
   f.window.close();
@@ -253,7 +252,6 @@ void AllViewsTest::quit_asksForLabelsOfAllViews() {
 
 void AllViewsTest::quit_asksWhileAllViewsAreSegmented() {
   AllViews f;
-  find<ProjectGuard>(f.window).setWorthKeeping(0);
   f.trigger("segment.update");
   QTRY_VERIFY_WITH_TIMEOUT(f.isSegmented(), kScenePatience);
   HeldLane held(f.window.bench().jobs, Lane::Label);
@@ -269,7 +267,6 @@ void AllViewsTest::quit_asksWhileAllViewsAreSegmented() {
 
 void AllViewsTest::exportedLabels_areNotAskedFor() {
   AllViews f;
-  find<ProjectGuard>(f.window).setWorthKeeping(0);
   f.segmentAll();
   QVERIFY(!f.window.bench().guards.may_leave(Leaving::Session));
 
@@ -280,7 +277,6 @@ void AllViewsTest::exportedLabels_areNotAskedFor() {
 
 void AllViewsTest::labelsOfAProject_areThereAgain() {
   AllViews f;
-  find<ProjectGuard>(f.window).setWorthKeeping(0);
   f.segmentAll();
   const LabelingPtr before = f.all();
   bool is_saved = false;

@@ -79,6 +79,7 @@ class LabelExchangeTest : public QObject {
   void oneOfThreeUses_isAskedFor();
   void labelsOfAllViews_becomeTheSegmentation();
   void importedLabels_areNotReplacedUnsaid();
+  void import_isAStepOfTheHistory();
   void importedLabels_stayWhenTheDisparityComes();
   void trueLabels_areCompared();
   void anotherId_isUnlabeledAtOnce();
@@ -160,12 +161,35 @@ void LabelExchangeTest::importedLabels_areNotReplacedUnsaid() {
   const LabelingPtr former = f.window.bench().session.labels().labeling;
   f.accept("segmentation");
   QVERIFY(f.segment().hasAllViews());
-  auto* undo = f.part<MessageBar>("messageBar")->findChild<QPushButton*>("message.action");
-  QVERIFY(undo && !undo->isHidden());
-  undo->click();
+  f.trigger("annotate.undo");
   QCOMPARE(f.window.bench().session.labels().labeling, former);
   QVERIFY(f.segment().hasSegmentation());
   QVERIFY(!f.segment().hasAllViews());
+}
+
+// A stroke and an import were once undone in two places, in any order.
+void LabelExchangeTest::import_isAStepOfTheHistory() {
+  Exchanging f;
+  f.drag({20, 20}, {20, 40});
+  const auto labels = [&f] { return f.window.bench().session.labels().labeling; };
+  f.importer().open({f.halves("all.npy")});
+  f.accept("segmentation");
+  QTRY_VERIFY(f.segment().hasAllViews());
+  const LabelingPtr imported = labels();
+  f.drag({70, 20}, {70, 40});
+  QVERIFY(f.labelAt({70, 30}) != 0);
+
+  f.trigger("annotate.undo");
+  QCOMPARE(f.labelAt({70, 30}), 0);
+  QCOMPARE(labels(), imported);
+  QVERIFY(f.segment().isSegmentationUpToDate());
+  f.trigger("annotate.undo");
+  QVERIFY(!labels());
+  QVERIFY(!f.segment().hasSegmentation());
+  QVERIFY(f.labelAt({20, 30}) != 0);
+  f.trigger("annotate.redo");
+  QCOMPARE(labels(), imported);
+  QVERIFY(f.segment().hasAllViews());
 }
 
 void LabelExchangeTest::importedLabels_stayWhenTheDisparityComes() {

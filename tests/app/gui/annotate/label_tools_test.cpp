@@ -18,8 +18,10 @@
 #include <QHeaderView>
 #include <QInputDialog>
 #include <QLineEdit>
+#include <QMenu>
 #include <QTreeWidget>
 
+#include <algorithm>
 #include <set>
 
 namespace episcope::in_label_tools_test {
@@ -62,6 +64,8 @@ class LabelToolsTest : public QObject {
   void lockedLabel_isNeitherPaintedNorPaintedOver();
   void lockedLabel_cannotBeRemoved();
   void mergedLabel_isTakenOver_andComesBack();
+  void label_isMergedFromItsMenu();
+  void nextLabel_withoutLabels_saysSo();
   void nameOfAnotherLabel_isRefused();
   void digits_arePlacesInTheList();
   void label_getsAnotherNumber();
@@ -141,6 +145,36 @@ void LabelToolsTest::mergedLabel_isTakenOver_andComesBack() {
   f.key(Qt::Key_Z, Qt::ControlModifier);
   QCOMPARE(f.labelAt({60, 40}), 2);
   QCOMPARE(f.labelAt({40, 40}), 1);
+}
+
+void LabelToolsTest::label_isMergedFromItsMenu() {
+  Labels f;
+  for (int i = 0; i < 3; ++i) f.trigger("annotate.add_label");
+
+  const QPoint first = f.list().visualItemRect(f.list().topLevelItem(0)).center();
+  emit f.list().customContextMenuRequested(first);
+  auto* menu = f.window.findChild<QMenu*>("labels.menu");
+  QVERIFY(menu);
+  const QList<QAction*> actions = menu->actions();
+  const auto merge = std::ranges::find(actions, QString("Merge into…"), &QAction::text);
+  QVERIFY(merge != actions.end());
+  (*merge)->trigger();
+  menu->close();
+
+  auto* dialog = f.window.findChild<QInputDialog*>("merge_labels");
+  QVERIFY(dialog);
+  QVERIFY2(dialog->labelText().contains("label 1"), qPrintable(dialog->labelText()));
+  dialog->accept();
+  QCOMPARE(f.document().labels().labels().size(), 2U);
+  QVERIFY(!f.document().labels().contains(1));
+}
+
+void LabelToolsTest::nextLabel_withoutLabels_saysSo() {
+  Labels f;
+
+  f.key(Qt::Key_N);
+
+  QVERIFY2(f.message().startsWith("No labels yet"), qPrintable(f.message()));
 }
 
 void LabelToolsTest::nameOfAnotherLabel_isRefused() {
@@ -581,6 +615,7 @@ void LabelToolsTest::amounts_followWhatIsPainted() {
     for (int x = 0; x < 96; ++x) painted += f.labelAt({y, x}) == 1;
   }
   QCOMPARE(text(), QLocale::c().toString(painted));
+  QVERIFY(f.list().columnWidth(kAmount) > f.list().fontMetrics().horizontalAdvance(text()));
   const QString tip = f.list().topLevelItem(0)->toolTip(kAmount);
   QVERIFY2(tip.contains("Disparity") && tip.contains("from"), qPrintable(tip));
   f.key(Qt::Key_Right);

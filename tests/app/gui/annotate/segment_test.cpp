@@ -12,11 +12,14 @@
 #include "tests/app/gui/annotating.h"
 #include "tests/app/gui/held_lane.h"
 #include "tests/window_test_main.h"
+#include "widgets/canvas/view_canvas.h"
+#include "widgets/controls/message_bar.h"
 #include "widgets/panels/color_bar.h"
 #include "widgets/panels/segment_panel.h"
 
 #include <QAction>
 #include <QComboBox>
+#include <QDir>
 #include <QSignalSpy>
 
 #include <cmath>
@@ -48,6 +51,8 @@ class SegmentTest : public QObject {
   void view_thatIsGoneTo_isLabeledToo();
   void overlay_thatIsOn_staysOnInOtherViews();
   void withoutLive_aStrokeOutdatesTheLabels();
+  void labelsOfStrokesThatAreUndone_areOutOfDate_data();
+  void labelsOfStrokesThatAreUndone_areOutOfDate();
   void oneLabel_isAHintAndNoError();
   void overlays_areDrawn();
   void recolouredLabel_isSeenAtOnce();
@@ -147,6 +152,37 @@ void SegmentTest::withoutLive_aStrokeOutdatesTheLabels() {
   QVERIFY(!f.segment().labeler().is_running());
   f.key(Qt::Key_U);
   QTRY_VERIFY_WITH_TIMEOUT(f.isSegmented(), kPatience);
+}
+
+void SegmentTest::labelsOfStrokesThatAreUndone_areOutOfDate_data() {
+  QTest::addColumn<QString>("command");
+  QTest::newRow("live") << "segment.live";
+  QTest::newRow("once") << "segment.update";
+}
+
+// They once stood there as if they were of now, and were exported so.
+void SegmentTest::labelsOfStrokesThatAreUndone_areOutOfDate() {
+  QFETCH(QString, command);
+  Segmenting f("edge");
+  for (const int y : {20, 70}) {
+    f.trigger("annotate.add_label");
+    f.drag({y, 20}, {y, 60});
+  }
+  f.trigger(command.toUtf8());
+  QTRY_VERIFY_WITH_TIMEOUT(f.isSegmented(), kPatience);
+  QTRY_VERIFY(!f.canvas()->caption().contains("out of date"));
+
+  while (f.window.bench().commands.find("annotate.undo")->isEnabled()) f.trigger("annotate.undo");
+
+  QVERIFY(f.document().labels().labels().empty());
+  QTRY_COMPARE_WITH_TIMEOUT(f.panel().state(), QString("out of date"), kPatience);
+  QVERIFY2(f.canvas()->caption().contains("segmentation, out of date"),
+           qPrintable(f.canvas()->caption()));
+  const auto* messages = f.window.findChild<MessageBar*>("messageBar");
+  QDir().mkpath(f.path("masks"));
+  export_masks(f.window.bench(), f.segment(), f.path("masks"));
+  QTRY_VERIFY2_WITH_TIMEOUT(messages->text().contains("masks holds labels that were out of date"),
+                            qPrintable(messages->text()), kPatience);
 }
 
 void SegmentTest::oneLabel_isAHintAndNoError() {
@@ -360,6 +396,7 @@ void SegmentTest::otherScene_dropsEverything() {
   QTRY_VERIFY_WITH_TIMEOUT(!f.segment().labeler().labeling({4, 4}), kPatience);
   QVERIFY(!f.segment().segmentation());
   f.window.bench().document.discardAll();
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().jobs.count(), 0, kScenePatience);
   f.window.bench().opener.close();  // the first one is shown again
   QTRY_COMPARE(f.window.bench().session.scenes().size(), 1U);
   QTRY_VERIFY(f.window.bench().document.document());

@@ -151,6 +151,9 @@ void CompareTest::badPixels_ofTheWholeView_areThoseOfTheTable() {
   const auto* panel = f.window.findChild<StatisticsPanel*>();
   QTRY_VERIFY2_WITH_TIMEOUT(panel->text().contains("bad " + bad_of_table() + " %"),
                             qPrintable(panel->text() + " · " + bad_of_table()), kPatience);
+  const auto* part = panel->findChild<QLabel*>("statistics.bad_part");
+  QVERIFY2(part->isVisible() && part->text().contains("without the border of 15 px"),
+           qPrintable(part->text()));
 }
 
 void CompareTest::truth_isMarkedAsNeitherSide() {

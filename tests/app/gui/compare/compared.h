@@ -40,6 +40,7 @@ class Compared : public WindowFixture {
     values[0] = std::numeric_limits<float>::quiet_NaN();
     ids.push_back(window.bench().session.add_estimate(estimate, {-1, 1},
                                                       window.bench().session.generation()));
+    window.bench().session.mark_saved(ids.back());
     return ids.back();
   }
 

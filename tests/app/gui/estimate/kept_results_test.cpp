@@ -5,6 +5,7 @@
 #include "app/gui/scene/scene_switcher.h"
 #include "app/session/project_file.h"
 #include "engine/io/models/result_file.h"
+#include "tests/app/gui/held_lane.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
 #include "widgets/controls/message_bar.h"
@@ -24,10 +25,7 @@ namespace {
 
 class Working : public WindowFixture {
  public:
-  Working() {
-    openSmall();
-    window.findChild<ProjectGuard*>()->setWorthKeeping(0);
-  }
+  Working() { openSmall(); }
   Session& session() { return window.bench().session; }
   QMessageBox* question() {
     auto* box = window.findChild<QMessageBox*>("unsaved_results");
@@ -84,6 +82,8 @@ class KeptResultsTest : public QObject {
   void ownExport_isNoChangeOnDisk();
   void openedResultFile_isKnown();
   void runningMethod_isAskedFor();
+  void fileThatIsBeingWritten_isAskedFor();
+  void closedScene_asksForItsOwnJobsAlone();
   void unsavedResult_isNamedWithItsLightField();
 };
 
@@ -319,6 +319,36 @@ void KeptResultsTest::runningMethod_isAskedFor() {
   f.trigger("file.quit");
   f.answer(QMessageBox::Discard);
   QTRY_VERIFY(!f.window.isVisible());
+}
+
+// Saved and quit: the file was cut off.
+void KeptResultsTest::fileThatIsBeingWritten_isAskedFor() {
+  Working f;
+  const HeldLane held(f.window.bench().jobs, Lane::Export);
+
+  f.trigger("file.quit");
+
+  QTRY_VERIFY(f.question());
+  QVERIFY2(f.question()->text().contains("held (0 %)"), qPrintable(f.question()->text()));
+  f.answer(QMessageBox::Cancel);
+  QVERIFY(f.window.isVisible());
+}
+
+void KeptResultsTest::closedScene_asksForItsOwnJobsAlone() {
+  Working f;
+  const HeldLane held(f.window.bench().jobs, Lane::Estimate);
+  f.trigger("estimate.run");
+  f.openSmall("slant");
+
+  f.trigger("file.close");
+  QVERIFY(!f.question());
+  QTRY_COMPARE(f.session().scenes().size(), 1U);
+
+  QTRY_VERIFY_WITH_TIMEOUT(f.session().scene(), kScenePatience);
+  f.trigger("file.close");
+  QTRY_VERIFY(f.question());
+  QVERIFY2(f.question()->text().contains("EPI_L · edge (0 %)"), qPrintable(f.question()->text()));
+  f.answer(QMessageBox::Cancel);
 }
 
 }  // namespace episcope::in_kept_results_test

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/estimate/estimate_controller.h"
 #include "app/gui/estimate/result_export.h"
+#include "app/gui/scene/overlay.h"
 #include "app/gui/scene/scene_switcher.h"
 #include "app/gui/scene/viewer_area.h"
 #include "app/gui/shell/commands.h"
@@ -67,6 +68,8 @@ class ResultsTest : public QObject {
   void commandsOfAResult_areOffWithoutOne();
   void resultsOfTheFormerLightField_areNotListedBesideAPreview();
   void run_listsItsResultWithItsError();
+  void resultThatIsNotSeen_isTold_data();
+  void resultThatIsNotSeen_isTold();
   void nothingRuns_whileAnotherLightFieldIsRead();
   void rangeSetByHand_staysForOtherMethods();
   void exportedResult_readsBack();
@@ -132,6 +135,42 @@ void ResultsTest::run_listsItsResultWithItsError() {
   QTRY_VERIFY2_WITH_TIMEOUT(row_text().contains(QRegularExpression("\\d+\\.\\d\\d\\|.*s\\|")),
                             qPrintable(row_text()), kPatience);
   QCOMPARE(f.window.bench().overlay.quantity(), render::Quantity::Disparity);
+}
+
+void ResultsTest::resultThatIsNotSeen_isTold_data() {
+  QTest::addColumn<bool>("is_row_clicked");
+  QTest::newRow("in the message") << false;
+  QTest::newRow("in the list") << true;
+}
+
+// Under another map, or in a view that the result lacks, a run once seemed to do nothing.
+void ResultsTest::resultThatIsNotSeen_isTold() {
+  QFETCH(bool, is_row_clicked);
+  WindowFixture f;
+  f.openSmall();
+  Overlay& overlay = f.window.bench().overlay;
+  overlay.setQuantity(render::Quantity::Truth);
+  f.window.bench().session.set_view(kOuterView);
+  QCoreApplication::processEvents();
+  auto* bar = f.window.findChild<MessageBar*>("messageBar");
+
+  find<EstimateController>(f.window).run({"st_ch_l", {}, {.views = ViewSelection::Center}});
+
+  QTRY_VERIFY2_WITH_TIMEOUT(bar->text().startsWith("New result: ST_CH_L"), qPrintable(bar->text()),
+                            kScenePatience);
+  QCOMPARE(overlay.quantity(), render::Quantity::Truth);
+  QCOMPARE(f.view(), kOuterView);
+  auto* tree = f.window.findChild<QTreeWidget*>("results.tree");
+  QTRY_VERIFY(tree->topLevelItem(0) && tree->topLevelItem(0)->text(0) == "new");
+
+  const QPoint row = tree->visualItemRect(tree->topLevelItem(0)).center();
+  is_row_clicked
+      ? QTest::mouseClick(tree->viewport(), Qt::LeftButton, {}, row)
+      : QTest::mouseClick(bar->findChild<QPushButton*>("message.action"), Qt::LeftButton);
+
+  QCOMPARE(overlay.quantity(), render::Quantity::Disparity);
+  QCOMPARE(f.view(), (ViewIndex{4, 4}));
+  QTRY_VERIFY(tree->topLevelItem(0)->text(0).isEmpty());
 }
 
 void ResultsTest::nothingRuns_whileAnotherLightFieldIsRead() {

@@ -131,13 +131,13 @@ void SweepWindowTest::point_showsItsMap_andTheNextTakesItsPlace() {
 
   f.clickPoint(f.upper(), {0, 1});
   QCOMPARE(f.session().estimates().size(), before + 1);
-  QVERIFY(f.session().shown()->name.find("inner_scale 1.2") != std::string::npos);
+  QVERIFY(f.session().shown()->name.find("Inner scale 1.2") != std::string::npos);
   QVERIFY(f.text("sweep.chosen").contains("Inner scale 1.2 px"));
   QVERIFY(f.lower().mark() == (PlotPlace{0, 1}));
 
   f.clickPoint(f.lower(), {0, 0});
   QCOMPARE(f.session().estimates().size(), before + 1);
-  QVERIFY(f.session().shown()->name.find("inner_scale 0.6") != std::string::npos);
+  QVERIFY(f.session().shown()->name.find("Inner scale 0.6") != std::string::npos);
 
   // What is shown is judged as what is plotted.
   const EvaluationKey key{f.session().shown()->id, judged_view(*f.session().scene()),
@@ -186,7 +186,7 @@ void SweepWindowTest::keys_chooseAPoint() {
   QTest::keyClick(&f.upper(), Qt::Key_Right);
   QTest::keyClick(&f.upper(), Qt::Key_Return);
   QCoreApplication::processEvents();
-  QVERIFY(f.session().shown()->name.find("inner_scale 1.2") != std::string::npos);
+  QVERIFY(f.session().shown()->name.find("Inner scale 1.2") != std::string::npos);
   QVERIFY((f.view() == ViewIndex{4, 4}));  // the arrow was not the viewer's
 }
 
@@ -234,7 +234,7 @@ void SweepWindowTest::cancelled_keepsThePointsThatAreThere() {
            qPrintable(title));
   QVERIFY(f.button("sweep.run").isEnabled());
   f.clickPoint(f.upper(), {0, 1});
-  QVERIFY(f.session().shown()->name.find("inner_scale") != std::string::npos);
+  QVERIFY(f.session().shown()->name.find("Inner scale") != std::string::npos);
 }
 
 void SweepWindowTest::withoutTruth_plotsChangeAndTime() {
@@ -306,12 +306,12 @@ void SweepWindowTest::severalScenes_arePlottedWithTheirMean() {
   QVERIFY(f.lower().plot().y.title.contains("BadPix"));
   QCOMPARE(f.lower().plot().series.size(), 3U);
   f.clickPoint(f.upper(), {2, 1});  // of the mean: the light field that is shown
-  QVERIFY(f.session().shown()->name.find("inner_scale 0.9") != std::string::npos);
+  QVERIFY(f.session().shown()->name.find("Inner scale 0.9") != std::string::npos);
   QCOMPARE(f.session().light_field()->info().name, std::string("slant"));
   f.clickPoint(f.upper(), {0, 1});
   QTRY_COMPARE_WITH_TIMEOUT(f.session().generation(), edge, kScenePatience);
   QTRY_VERIFY_WITH_TIMEOUT(f.session().shown(), kScenePatience);
-  QVERIFY(f.session().shown()->name.find("inner_scale 0.9") != std::string::npos);
+  QVERIFY(f.session().shown()->name.find("Inner scale 0.9") != std::string::npos);
 
   auto* of = f.window.findChild<QComboBox*>("sweep.scene");
   of->setCurrentIndex(2);
@@ -378,7 +378,7 @@ void SweepWindowTest::sweeps_comeBackWithTheProject() {
   // Maps are computed again when they are looked at.
   other.clickPoint(other.upper(), {1, 0});
   QTRY_VERIFY_WITH_TIMEOUT(other.session().shown(), kScenePatience);
-  QVERIFY(other.session().shown()->name.find("inner_scale 0.6") != std::string::npos);
+  QVERIFY(other.session().shown()->name.find("Inner scale 0.6") != std::string::npos);
   const EvaluationKey key{other.session().shown()->id, judged_view(*other.session().scene()),
                           Protocol::Vmv2013};
   EvaluationPtr evaluation;
@@ -388,7 +388,6 @@ void SweepWindowTest::sweeps_comeBackWithTheProject() {
 
 void SweepWindowTest::sweep_isAskedForBeforeItIsLost() {
   Sweeping f;
-  find<ProjectGuard>(f.window).setWorthKeeping(0);
   f.vary("sweep.first", "inner_scale", "0.6, 1.2");
   f.run();
   f.window.close();

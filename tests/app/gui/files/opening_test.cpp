@@ -99,6 +99,7 @@ class OpeningTest : public QObject {
   void firstDialog_beginsAtHome();
   void dialog_beginsBesideWhatWasOpened();
   void dialog_remembersItsFolder();
+  void folderThatIsTyped_isOpenedByReturn();
   void dialogForFiles_hidesNoForm();
   void dialogForFiles_opensAFolder_data();
   void dialogForFiles_opensAFolder();
@@ -204,7 +205,6 @@ void OpeningTest::builtinScene_isEstimatedAtOnce() {
   QTRY_VERIFY_WITH_TIMEOUT(!f.window.bench().overlay.picture().isNull(), kPatience);
   QVERIFY(f.window.bench().commands.find("overlay.error")->isEnabled());
   // Nobody asked for it, so that nobody is asked to save it.
-  find<ProjectGuard>(f.window).setWorthKeeping(0);
   QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().guards.may_leave(Leaving::Session), kPatience);
 }
 
@@ -372,6 +372,23 @@ void OpeningTest::dialog_remembersItsFolder() {
 
   f.trigger("file.open");
   QCOMPARE(f.window.findChild<QFileDialog*>()->directory().path(), QFileInfo(scene).path());
+}
+
+// The dialog only looked into it.
+void OpeningTest::folderThatIsTyped_isOpenedByReturn() {
+  WindowFixture f;
+  const QString folder = QFileInfo(f.writeScene("edge", WindowFixture::smallOptions())).path();
+  f.trigger("file.open");
+  auto* dialog = f.window.findChild<QFileDialog*>("open_file");
+  QVERIFY(QTest::qWaitForWindowActive(dialog));
+  auto* name = dialog->findChild<QLineEdit*>("fileNameEdit");
+  name->setFocus();
+
+  QTest::keyClicks(name, folder);
+  QTest::keyClick(name, Qt::Key_Return);
+
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().session.input(), folder.toStdString(), kScenePatience);
+  QTRY_VERIFY(!f.window.findChild<QFileDialog*>("open_file"));
 }
 
 // It once showed HDF5, PFM and TIFF only.

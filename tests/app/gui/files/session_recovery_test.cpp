@@ -107,6 +107,7 @@ class SessionRecoveryTest : public QObject {
   void recoveredSession_isKeptAgain();
   void recoveredSession_isToldWhenItIsShown();
   void recoveredScene_isNamedWhileItIsRead();
+  void whatWasDoneBeforeTheOffer_staysOpen();
   void offer_isKeptByItsCross_andTheDemoWaitsForIt();
   void discardedSession_isGone();
   void sceneThatWasOnlyLookedAt_comesBackClean();
@@ -196,6 +197,27 @@ void SessionRecoveryTest::recoveredSession_isToldWhenItIsShown() {
                            kScenePatience);
   QVERIFY(f.session().scene());
   QCOMPARE(f.resultCount(), std::size_t{1});
+}
+
+// It was asked about, although it stays.
+void SessionRecoveryTest::whatWasDoneBeforeTheOffer_staysOpen() {
+  const QTemporaryDir state;
+  const WindowFixture files;
+  leave_session(files, state.path());
+  Recovering f(state.path());
+  f.openSmall("slant");
+  f.estimate();
+  f.window.bench().document.edit([](AnnotationDocument& document) { document.add_label("mine"); });
+  const auto own = f.session().generation();
+  f.window.bench().frame.start();
+  QTRY_VERIFY(f.bar()->isVisible());
+
+  f.bar()->findChild<QPushButton*>("message.action")->click();
+
+  QTRY_COMPARE_WITH_TIMEOUT(f.session().scenes().size(), std::size_t{2}, kScenePatience);
+  QVERIFY(f.window.findChildren<QMessageBox*>().isEmpty());
+  QCOMPARE(f.session().find_scene(own)->estimates.size(), std::size_t{1});
+  QCOMPARE(f.window.bench().document.unsavedScenes(), std::vector{own});
 }
 
 void SessionRecoveryTest::recoveredScene_isNamedWhileItIsRead() {
@@ -343,6 +365,7 @@ void SessionRecoveryTest::leftWindow_leavesNothingBehind() {
     f.estimate();
     QTRY_VERIFY(!f.session().estimates()[0].kept.empty());
     f.trigger("file.quit");
+    f.window.findChild<QMessageBox*>("unsaved_results")->button(QMessageBox::Discard)->click();
     QTRY_VERIFY(!f.window.isVisible());
   }
 

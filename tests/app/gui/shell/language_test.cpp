@@ -116,6 +116,7 @@ class LanguageTest : public QObject {
   void keys_areReadAndWrittenInEveryLanguage();
   void numbersOfTheCLibrary_keepThePoint();
   void whatIsCopied_isTheSameInEveryLanguage();
+  void nameOfANewLabel_isTranslated();
   void choice_isRemembered();
   void mnemonics_areUniqueInAMenu();
   void noText_isCut_data();
@@ -220,6 +221,20 @@ void LanguageTest::whatIsCopied_isTheSameInEveryLanguage() {
   QVERIFY(apply_language("de"));
 
   QCOMPARE(copied_from_a_window(), english);
+}
+
+void LanguageTest::nameOfANewLabel_isTranslated() {
+  QVERIFY(apply_language("de"));
+  WindowFixture f;
+  f.openSmall();
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().document.document(), kPatience);
+  f.trigger("annotate.mode");
+
+  f.drag({20, 20}, {20, 40});
+  f.trigger("annotate.add_label");
+
+  QCOMPARE(f.document().labels().find(1)->name, std::string("Label 1"));
+  QCOMPARE(f.document().labels().find(2)->name, std::string("Label 2"));
 }
 
 void LanguageTest::choice_isRemembered() {

@@ -168,6 +168,9 @@ void LayoutTest::epis_takeTheDarkMarginsOfALargeWindow() {
   QTRY_VERIFY2(epi->width() > first + 100, qPrintable(QString::number(epi->width())));
   QVERIFY(f.canvas()->width() >= f.canvas()->height());       // the view loses nothing
   QVERIFY(f.canvas()->width() < 1.1 * f.canvas()->height());  // and is all that is left
+  const int other = f.window.bench().viewer_area.horizontalEpi()->height();
+  QVERIFY2(4 * other >= epi->width() - 4, qPrintable(QString::number(other)));
+  QVERIFY(f.window.findChild<QSplitter*>("split.column")->width() > 280);
   f.window.resize(1280, 800);
   QTRY_COMPARE(epi->width(), first);
 
