@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/annotate/segment_controller.h"
 
-#include "app/gui/annotate/annotation_files.h"
+#include "app/gui/annotate/segment_commands.h"
 #include "app/gui/scene/viewer_area.h"
 #include "app/gui/shell/commands.h"
 #include "app/gui/shell/frame.h"
@@ -51,7 +51,7 @@ SegmentController::SegmentController(const Workbench& bench, SegmentPanel* panel
       edges_(bench.session, this),
       scores_(bench.session, this),
       live_(queued_post(this), [this] { followLabeler(); }) {
-  addCommands();
+  add_segment_commands(bench, *this, *panel);
   connectDocument();
   connectPanel();
   connect(&scores_, &LabelScores::changed, this, &SegmentController::showState);
@@ -609,101 +609,6 @@ void SegmentController::adopt(const KeptLabels& kept) {
   }
   live_.take(kept.labeling, input);
   publish();
-}
-
-namespace {
-
-using render::Quantity;
-
-constexpr int kSegmentSection = 0;
-
-}  // namespace
-
-void SegmentController::addRunCommands() {
-  const auto has_input = [this] { return live_.has_input(); };
-  bench_.commands.add(
-      {.menu = Menu::Segmentation, .section = kSegmentSection, .enabled = has_input},
-      {{.id = "segment.live",
-        .text = tr("Live"),
-        .tip = tr("Segments the view again after every stroke"),
-        .icon = "live",
-        .keys = {Qt::Key_L},
-        .run = [this] { setLive(!is_live_); },
-        .checked = [this] { return is_live_; }},
-       {.id = "segment.update",
-        .text = tr("Update now"),
-        .tip = tr("Segments this view from the scribbles"),
-        .icon = "run",
-        .keys = {Qt::Key_U},
-        .run = [this] { updateNow(); }},
-       {.id = "segment.all",
-        .text = tr("Segment all views"),
-        .tip = tr("Segments all views, with labels that agree along the rays"),
-        .icon = "tiles",
-        .keys = {tr("Shift+U")},
-        .run = [this] { segmentAllViews(); }}});
-}
-
-void SegmentController::addExportCommands() {
-  bench_.commands.add(
-      {.id = "segment.export_masks",
-       .menu = Menu::Export,
-       .text = tr("Masks of labels…"),
-       .tip = tr("Writes a black and white PNG of every label in every segmented view to a folder"),
-       .icon = "export",
-       .run = [this] { ask_to_export_masks(bench_, *this); },
-       .section = section::kLabels,
-       .enabled = [this] { return hasSegmentation(); }});
-}
-
-void SegmentController::addSmoothingCommands() {
-  constexpr double kStep_px = 0.5;
-  bench_.commands.add(
-      {.menu = Menu::Segmentation, .section = kSegmentSection},
-      {{.id = "segment.smoother",
-        .text = tr("Smoother boundaries"),
-        .tip = tr("Smooths the boundaries of all labels by half a pixel more; can be undone"),
-        .keys = {tr("Shift+S")},
-        .run = [this] { smoothBoundaries(smoothing() + kStep_px); },
-        .enabled = [this] { return live_.has_input(); }},
-       {.id = "segment.less_smooth",
-        .text = tr("Less smooth boundaries"),
-        .tip = tr("Smooths the boundaries of all labels by half a pixel less"),
-        .run = [this] { smoothBoundaries(smoothing() - kStep_px); },
-        .enabled = [this] { return smoothing() > 0; }}});
-}
-
-void SegmentController::addOverlayCommands() {
-  struct Row {
-    const char* id;
-    Quantity quantity;
-    QList<QKeySequence> keys{};
-  };
-  for (const Row& row :
-       std::initializer_list<Row>{{"segment.show", Quantity::Segmentation, {Qt::Key_S}},
-                                  {"segment.probability", Quantity::Probability, {Qt::Key_P}},
-                                  {"segment.uncertainty", Quantity::Uncertainty},
-                                  {"segment.edges", Quantity::Edges},
-                                  {"segment.wrong", Quantity::WrongLabels}}) {
-    Overlay& overlay = bench_.overlay;
-    Command command = map_command(overlay, row.quantity, row.id);
-    command.keys = row.keys;
-    command.run = [&overlay, quantity = row.quantity] {
-      overlay.setQuantity(overlay.quantity() == quantity ? Quantity::View : quantity);
-    };
-    QAction* action = bench_.commands.add(command);
-    panel_->addOverlay(action);
-  }
-}
-
-void SegmentController::addCommands() {
-  addRunCommands();
-  addExportCommands();
-  addSmoothingCommands();
-  addOverlayCommands();
-  for (const char* id : {"segment.live", "segment.update", "segment.all"}) {
-    panel_->addAction(bench_.commands.find(id));
-  }
 }
 
 }  // namespace episcope

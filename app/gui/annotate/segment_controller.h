@@ -38,6 +38,7 @@ class SegmentController : public QObject, public MapProvider {
 
   /// Live mode: recomputes labels after every change of document, view or settings.
   void setLive(bool is_live);
+  [[nodiscard]] bool isLive() const { return is_live_; }
   /// Segments this view once.
   void updateNow();
   /// Segments all views as a job, which continues while other scenes are shown. If the disparity is
@@ -62,6 +63,8 @@ class SegmentController : public QObject, public MapProvider {
   void takeLabels(const LabelingPtr& labeling);
   /// Smooths the boundaries of all labels, as one step of the history.
   void smoothBoundaries(double smoothing_px);
+  /// By how many pixels boundaries are smoothed.
+  [[nodiscard]] double smoothing() const;
 
   [[nodiscard]] bool has_map(render::Quantity quantity) const override;
   [[nodiscard]] bool awaits_map(render::Quantity quantity) const override;
@@ -73,11 +76,6 @@ class SegmentController : public QObject, public MapProvider {
   void provideDisparity() { source_.provide(); }
 
  private:
-  void addCommands();
-  void addRunCommands();
-  void addOverlayCommands();
-  void addSmoothingCommands();
-  void addExportCommands();
   void connectDocument();
   void connectPanel();
   struct State {
@@ -114,7 +112,6 @@ class SegmentController : public QObject, public MapProvider {
   [[nodiscard]] bool showsLabels() const;
   [[nodiscard]] LabelerParameters parameters() const;
   [[nodiscard]] LabelFinish finish() const;
-  [[nodiscard]] double smoothing() const;
   [[nodiscard]] QString missing() const;
 
   Workbench bench_;
