@@ -13,6 +13,7 @@
 #include "engine/io/models/assemble_scene.h"
 #include "engine/io/models/load_views.h"
 #include "engine/io/models/order/view_axes.h"
+#include "engine/io/models/sidecar_maps/map_name.h"
 #include "engine/io/models/sidecar_maps/sidecar_maps.h"
 #include "engine/io/models/stored_maps.h"
 
@@ -22,6 +23,7 @@
 #include <cmath>
 #include <functional>
 #include <optional>
+#include <set>
 #include <utility>
 
 namespace episcope::io {
@@ -252,11 +254,22 @@ std::optional<Interval> stated_range(const Hdf5Input& file) {
   return Interval{*min, *max};
 }
 
-/// Names datasets of the archive that are there and of no use.
+/// Names datasets of the archive, and others that are named like maps, that are of no use.
 void tell_faults(const Hdf5Input& file, ConventionReport& report) {
-  for (const char* name :
-       {"GT_DEPTH", "GT_DEPTH_MASK", "GT_DEPTH_FOREGROUND", "GT_DEPTH_FOREGROUND_MASK",
-        "GT_DEPTH_BACKGROUND", "GT_DEPTH_BACKGROUND_MASK", kTrueLabels, "SCRIBBLES", kValid}) {
+  std::set<std::string> names{"GT_DEPTH",
+                              "GT_DEPTH_MASK",
+                              "GT_DEPTH_FOREGROUND",
+                              "GT_DEPTH_FOREGROUND_MASK",
+                              "GT_DEPTH_BACKGROUND",
+                              "GT_DEPTH_BACKGROUND_MASK",
+                              kTrueLabels,
+                              "SCRIBBLES",
+                              kValid};
+  for (const Hdf5Dataset& one : file.datasets()) {
+    const bool is_of_pixels = one.type == Hdf5Type::Other && one.shape.size() > 1;
+    if (is_of_pixels && map_kind(one.name)) names.insert(one.name);
+  }
+  for (const std::string& name : names) {
     const std::string fault = file.fault_of(name);
     if (!fault.empty())
       report.warnings.push_back(fmt::format(finding_text("dataset.left_out"), name, fault));

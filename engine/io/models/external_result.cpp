@@ -168,6 +168,12 @@ Hdf5Dataset find_map(const Hdf5Input& file) {
   std::erase_if(maps, [](const Hdf5Dataset& dataset) { return !can_be_map(dataset); });
   const auto is_float = [](const Hdf5Dataset& map) { return map.type == Hdf5Type::Float; };
   if (std::ranges::any_of(maps, is_float)) std::erase_if(maps, std::not_fn(is_float));
+  for (const Hdf5Dataset& other : maps.empty() ? file.datasets() : std::vector<Hdf5Dataset>()) {
+    const std::string fault = file.fault_of(other.name);
+    if (fault.empty()) continue;
+    throw IoError(file.path(), "the dataset " + other.name + " " + fault +
+                                   "; store numbers alone, each field as a dataset of its own");
+  }
   leave_out_truth(maps, [](const Hdf5Dataset& map) { return map.name; });
   std::vector<std::string> names;
   for (const Hdf5Dataset& map : maps) names.push_back(map.name);

@@ -262,6 +262,27 @@ class Hdf5FormsTest : public QObject {
             2e-6);
   }
 
+  void recordsNamedLikeAMap_areTold() {
+    const Scene scene = plane_scene();
+    const hid_t record = H5Tcreate(H5T_COMPOUND, 8);
+    H5Tinsert(record, "d", 0, H5T_NATIVE_FLOAT);
+    H5Tinsert(record, "c", 4, H5T_NATIVE_FLOAT);
+    const std::vector<float> samples(2 * 64 * 80, 1);
+    {
+      const HandMadeFile file(path());
+      file.dataset("LF", H5T_NATIVE_UINT8, H5T_NATIVE_UINT8, {5, 5, 64, 80, 3}, {},
+                   bytes_of(scene).data());
+      file.dataset("disparity", record, record, {64, 80}, {}, samples.data());
+    }
+    H5Tclose(record);
+
+    const Scene read = io::open_scene(path(), {}, Progress(1));
+
+    QVERIFY2(describe(read.convention).find("disparity holds records of several fields") !=
+                 std::string::npos,
+             describe(read.convention).c_str());
+  }
+
   void recordsOfSeveralFields_areNamed_data() {
     QTest::addColumn<QString>("name");
     QTest::newRow("LF") << "LF";
