@@ -7,6 +7,7 @@
 #include "app/gui/annotate/label_exchange.h"
 #include "app/gui/annotate/label_review.h"
 #include "app/gui/annotate/scribble_controller.h"
+#include "app/gui/annotate/segment_commands.h"
 #include "app/gui/annotate/segment_controller.h"
 #include "app/gui/browse/browse_controller.h"
 #include "app/gui/browse/cloud_controller.h"
@@ -271,6 +272,7 @@ void add_segmenting(const Workbench& bench) {
   auto* panel = new SegmentPanel(&bench.frame);
   bench.frame.addToTab("annotate", panel);
   auto* segment = new SegmentController(bench, panel);
+  add_segment_commands(bench, *segment, *panel);
   auto* importer = bench.owner.findChild<LabelImporter*>();
   QObject::connect(importer, &LabelImporter::segmented, segment, &SegmentController::takeLabels);
   QObject::connect(bench.owner.findChild<AnnotateController*>(),

@@ -179,21 +179,24 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
     // Cameras and views that are not where they should be.
     {"camera.unequal",
      "Rows of cameras are {:.3g} times as far apart as columns. net, plane_pm and stereo methods "
-     "use the positions of the cameras, up to 2 times; all others take both distances for equal, "
-     "and their disparity is wrong: --crop 1x{} reads a single row of views for them.",
+     "use the positions of the cameras; all others take both distances for equal, and their "
+     "disparity is wrong: --crop 1x{} reads a single row of views for them.",
+     "Rows of cameras are %1 times as far apart as columns."},
+    {"camera.too_unequal",
+     "Rows of cameras are {:.3g} times as far apart as columns, which no method takes into "
+     "account: --crop 1x{} reads a single row of views.",
      "Rows of cameras are %1 times as far apart as columns."},
     {"views.same",
-     "Views {} are one and the same picture, stored more than once: replace what is wrong, or "
-     "leave it out with --crop.",
+     "Views {} are one and the same picture, stored more than once: replace what is wrong.",
      "Views %1 are the same picture."},
     {"views.exchanged",
      "Views {} and {} seem to stand in each other's place: exchanged, they differ from their "
-     "neighbors by {:.0f} % less. Rename or store them anew, or leave them out with --crop.",
+     "neighbors by {:.0f} % less. Rename or save them again in order.",
      "Views %1 and %2 seem to be exchanged."},
     {"views.snake",
      "Every second {} of views seems to be stored the other way round: turned round, it differs "
-     "from its neighbors by {:.0f} % less. --snake reads images so whose rows were captured to and "
-     "fro; store other views anew.",
+     "from its neighbors by {:.0f} % less. --snake reads images whose rows were captured back and "
+     "forth; save other views again in order.",
      "Every second %1 of views seems to be reversed."},
     // Order of views; near and far.
     {"order.swapped", "Rows and columns of views seem to be swapped: {}.",
@@ -238,7 +241,7 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
     {"sign.occlusion", "occlusion: {} points to {}, in {} squares of the view to {}"},
     {"sign.by", "by occlusion: {} points to {}, in {} squares of the view to {}"},
     {"sign.by_truth", "by truth: {}"},
-    {"sign.by_poses", "by the poses of the cameras, which tell right and down"},
+    {"sign.by_poses", "by the camera poses, which define right and down"},
     {"sign.by_hand", "the order was chosen by hand"},
     {"sign.doubtful_truth", "the truth is in doubt"},
     {"sign.either",
@@ -348,7 +351,7 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
      "%1 is not used: it has %2."},
     {"map.no_view",
      "{} of {} files {} belong to no view by their numbers, such as {}: they are not used.",
-     "%1 of %2 files %3 are of no view."},
+     "%1 of %2 files %3 match no view."},
     {"map.views_exchanged",
      "Rows and columns of views seem to be exchanged in these maps: against the truth of view {}, "
      "the map of that view has MSE×100 {:.3g}, that of view {} {:.3g}. Exchange the first two axes "

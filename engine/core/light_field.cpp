@@ -348,12 +348,12 @@ class Coordinate {
   double base_ = 0;
 };
 
-bool is_grid(const Coordinate& x, const Coordinate& y, GridShape grid) {
+// Whether positions grow with columns along x and with rows along y.
+bool is_upright(const Coordinate& x, const Coordinate& y, GridShape grid) {
   const double step_u = std::abs(x.along_u), step_v = std::abs(y.along_v);
   if (grid.u > 1 && !(step_u > 0 && std::abs(y.along_u) <= kMostSkew * step_u)) return false;
   if (grid.v > 1 && !(step_v > 0 && std::abs(x.along_v) <= kMostSkew * step_v)) return false;
-  if (grid.u == 1 || grid.v == 1) return true;
-  return step_u <= kMostRatio * step_v && step_v <= kMostRatio * step_u;
+  return true;
 }
 
 double deviation_from_grid(const std::vector<ViewPlace>& places, GridShape grid) {
@@ -382,9 +382,9 @@ ViewPlaces view_places(const LightFieldInfo& info, GridShape grid) {
   }
   Coordinate x(grid, std::move(xs)), y(grid, std::move(ys));
   result.kind = PlacesKind::Implausible;
-  const double ratio = std::abs(y.along_v / x.along_u);
-  if (grid.v > 1 && grid.u > 1 && std::isfinite(ratio) && ratio > 0) result.row_step = ratio;
-  if (!is_grid(x, y, grid)) return result;
+  if (!is_upright(x, y, grid)) return result;
+  if (grid.v > 1 && grid.u > 1) result.row_step = std::abs(y.along_v / x.along_u);
+  if (std::max(result.row_step, 1 / result.row_step) > kMostRatio) return result;
   const auto unit = [&](double along) {
     return std::copysign(grid.u > 1 ? x.along_u : y.along_v, along);
   };

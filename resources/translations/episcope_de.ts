@@ -3388,20 +3388,12 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Die Karten von %2 gelten Zeile für Zeile.</translation>
     </message>
     <message>
-        <source>%1 of %2 files %3 are of no view.</source>
-        <translation>%1 von %2 Dateien %3 gehören zu keiner Ansicht.</translation>
-    </message>
-    <message>
         <source>%1 of %2 files %3 belong to no view by their numbers, such as %4: they are not used.</source>
         <translation>%1 von %2 Dateien %3 gehören nach ihren Nummern zu keiner Ansicht, etwa %4: sie werden nicht verwendet.</translation>
     </message>
     <message>
         <source>Every second %1 of views seems to be reversed.</source>
         <translation>Jede zweite %1 von Ansichten scheint umgekehrt zu sein.</translation>
-    </message>
-    <message>
-        <source>Every second %1 of views seems to be stored the other way round: turned round, it differs from its neighbors by %2 % less. --snake reads images so whose rows were captured to and fro; store other views anew.</source>
-        <translation>Jede zweite %1 von Ansichten scheint umgekehrt gespeichert zu sein: umgedreht unterscheidet sie sich von ihren Nachbarn um %2 % weniger. --snake liest so Bilder, deren Zeilen hin und her aufgenommen wurden; andere Ansichten sind neu zu speichern.</translation>
     </message>
     <message>
         <source>Rows and columns of views seem to be exchanged in these maps: against the truth of view %1, the map of that view has MSE×100 %2, that of view %3 %4. Exchange the first two axes of the array.</source>
@@ -3416,28 +3408,40 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Die Zeilen der Kameras liegen %1-mal so weit auseinander wie die Spalten.</translation>
     </message>
     <message>
-        <source>Rows of cameras are %1 times as far apart as columns. net, plane_pm and stereo methods use the positions of the cameras, up to 2 times; all others take both distances for equal, and their disparity is wrong: --crop 1x%2 reads a single row of views for them.</source>
-        <translation>Die Zeilen der Kameras liegen %1-mal so weit auseinander wie die Spalten. net, plane_pm und Stereoverfahren verwenden die Positionen der Kameras, bis zum 2-Fachen; alle anderen halten beide Abstände für gleich, und ihre Disparität ist falsch: --crop 1x%2 liest für sie eine einzige Zeile von Ansichten.</translation>
-    </message>
-    <message>
         <source>Views %1 and %2 seem to be exchanged.</source>
         <translation>Die Ansichten %1 und %2 scheinen vertauscht zu sein.</translation>
-    </message>
-    <message>
-        <source>Views %1 and %2 seem to stand in each other&apos;s place: exchanged, they differ from their neighbors by %3 % less. Rename or store them anew, or leave them out with --crop.</source>
-        <translation>Die Ansichten %1 und %2 scheinen am Platz der jeweils anderen zu stehen: vertauscht unterscheiden sie sich von ihren Nachbarn um %3 % weniger. Benennen Sie sie um, speichern Sie sie neu, oder lassen Sie sie mit --crop aus.</translation>
-    </message>
-    <message>
-        <source>Views %1 are one and the same picture, stored more than once: replace what is wrong, or leave it out with --crop.</source>
-        <translation>Die Ansichten %1 sind ein und dasselbe Bild, mehrmals gespeichert: Ersetzen Sie, was falsch ist, oder lassen Sie es mit --crop aus.</translation>
     </message>
     <message>
         <source>Views %1 are the same picture.</source>
         <translation>Die Ansichten %1 sind dasselbe Bild.</translation>
     </message>
     <message>
-        <source>by the poses of the cameras, which tell right and down</source>
-        <translation>durch die Posen der Kameras, die rechts und unten angeben</translation>
+        <source>%1 of %2 files %3 match no view.</source>
+        <translation>%1 von %2 Dateien %3 passen zu keiner Ansicht.</translation>
+    </message>
+    <message>
+        <source>Every second %1 of views seems to be stored the other way round: turned round, it differs from its neighbors by %2 % less. --snake reads images whose rows were captured back and forth; save other views again in order.</source>
+        <translation>Jede zweite %1 der Ansichten scheint andersherum gespeichert zu sein: umgedreht unterscheidet sie sich um %2 % weniger von ihren Nachbarn. --snake liest Bilder, deren Zeilen hin und her aufgenommen wurden; andere Ansichten der Reihe nach neu speichern.</translation>
+    </message>
+    <message>
+        <source>Rows of cameras are %1 times as far apart as columns, which no method takes into account: --crop 1x%2 reads a single row of views.</source>
+        <translation>Die Zeilen der Kameras liegen %1-mal so weit auseinander wie die Spalten, was kein Verfahren berücksichtigt: --crop 1x%2 liest eine einzige Zeile von Ansichten.</translation>
+    </message>
+    <message>
+        <source>Rows of cameras are %1 times as far apart as columns. net, plane_pm and stereo methods use the positions of the cameras; all others take both distances for equal, and their disparity is wrong: --crop 1x%2 reads a single row of views for them.</source>
+        <translation>Die Zeilen der Kameras liegen %1-mal so weit auseinander wie die Spalten. net, plane_pm und Stereoverfahren verwenden die Positionen der Kameras; alle anderen halten beide Abstände für gleich, und ihre Disparität ist falsch: --crop 1x%2 liest für sie eine einzige Zeile von Ansichten.</translation>
+    </message>
+    <message>
+        <source>Views %1 and %2 seem to stand in each other&apos;s place: exchanged, they differ from their neighbors by %3 % less. Rename or save them again in order.</source>
+        <translation>Die Ansichten %1 und %2 scheinen vertauscht zu sein: getauscht unterscheiden sie sich um %3 % weniger von ihren Nachbarn. Benennen Sie sie um, oder speichern Sie sie der Reihe nach neu.</translation>
+    </message>
+    <message>
+        <source>Views %1 are one and the same picture, stored more than once: replace what is wrong.</source>
+        <translation>Die Ansichten %1 sind ein und dasselbe Bild, mehrfach gespeichert: Ersetzen Sie, was falsch ist.</translation>
+    </message>
+    <message>
+        <source>by the camera poses, which define right and down</source>
+        <translation>durch die Posen der Kameras, die rechts und unten festlegen</translation>
     </message>
 </context>
 <context>

@@ -100,6 +100,7 @@ void LabelingSource::provide() {
       },
       [this] { emit changed(); });
   jobs_.setScene(job_, generation);
+  jobs_.setExpendable(job_);  // the program began it
 }
 
 EdgeSource::EdgeSource(Session& session, QObject* parent)

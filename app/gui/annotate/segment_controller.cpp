@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/annotate/segment_controller.h"
 
-#include "app/gui/annotate/segment_commands.h"
 #include "app/gui/scene/viewer_area.h"
 #include "app/gui/shell/commands.h"
 #include "app/gui/shell/frame.h"
@@ -51,7 +50,6 @@ SegmentController::SegmentController(const Workbench& bench, SegmentPanel* panel
       edges_(bench.session, this),
       scores_(bench.session, this),
       live_(queued_post(this), [this] { followLabeler(); }) {
-  add_segment_commands(bench, *this, *panel);
   connectDocument();
   connectPanel();
   connect(&scores_, &LabelScores::changed, this, &SegmentController::showState);
@@ -565,7 +563,8 @@ void SegmentController::restore() {
 
 void SegmentController::takeLabels(const LabelingPtr& labeling) {
   if (!live_.has_input()) return;
-  const KeptLabels former = session_.labels();
+  KeptLabels former = session_.labels();
+  former.file.clear();  // which those in its place are stored over
   noteInput();
   KeptLabels kept = kept_labels(labeling, document_.labels().labels(), *live_.input());
   kept.is_imported = true;
@@ -580,9 +579,11 @@ void SegmentController::stepOverImport(bool is_undo) {
   const History<Edit>& history = document_.document()->history();
   const std::size_t step = history.applied_count() + (is_undo ? 1 : 0);
   const auto import = imports_.find({session_.generation(), history.state_after(step)});
-  if (import != imports_.end()) {
-    putBack(is_undo ? import->second.before : import->second.after);
-  }
+  if (import == imports_.end()) return;
+  const auto& [before, after] = import->second;
+  // Labels that were computed since stay.
+  if (session_.labels().labeling != (is_undo ? after : before).labeling) return;
+  putBack(is_undo ? before : after);
 }
 
 void SegmentController::putBack(const KeptLabels& kept) {

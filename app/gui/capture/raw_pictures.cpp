@@ -171,10 +171,11 @@ void RawPictures::open(const QString& path) {
 }
 
 void RawPictures::read(const capture::PictureFiles& files) {
-  bench_.jobs.start<ReadRaw>(
+  const quint64 job = bench_.jobs.start<ReadRaw>(
       Lane::Capture, tr("Reading %1").arg(QString::fromStdString(files.raw.filename().string())),
       [files](const Progress& progress) { return read_raw_files(files, progress); },
       [this, files](const ReadRaw& read) { take(files, read); });
+  bench_.jobs.setExpendable(job);
 }
 
 void RawPictures::take(const capture::PictureFiles& files, const ReadRaw& read) {
@@ -189,7 +190,7 @@ void RawPictures::take(const capture::PictureFiles& files, const ReadRaw& read) 
 
 void RawPictures::findLenses() {
   if (!found_) return;
-  bench_.jobs.start<capture::LensGrid>(
+  const quint64 job = bench_.jobs.start<capture::LensGrid>(
       Lane::Capture, tr("Finding the lenses"),
       [found = found_](const Progress& progress) {
         return capture::find_lenses(found->pictures, progress);
@@ -200,6 +201,7 @@ void RawPictures::findLenses() {
         panel_->setCenters(centers_of(grid, found_->pictures.raw), grid.pitch_px);
         show();
       });
+  bench_.jobs.setExpendable(job);
 }
 
 void RawPictures::askForViews() {

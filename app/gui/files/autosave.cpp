@@ -56,7 +56,9 @@ Autosave::Autosave(const Workbench& bench)
 
 Autosave::~Autosave() {
   runner_.reset();
-  if (is_over_ && workspace_) workspace_->remove();
+  if (!is_over_) return;
+  if (workspace_) workspace_->remove();
+  for (const auto& former : former_) former->remove();
 }
 
 void Autosave::follow(Parts parts) {
@@ -146,7 +148,7 @@ void Autosave::takeOver(const fs::path& folder) {
   auto taken = Workspace::take_over(folder);
   runner_ = std::make_unique<JobRunner>(queued_post(this));  // what was being written is dropped
   is_writing_ = false;
-  if (workspace_) workspace_->remove();
+  if (workspace_) former_.push_back(std::move(workspace_));
   workspace_ = std::move(taken);  // written when its scenes are open
 }
 
@@ -311,6 +313,12 @@ void read_strokes(ReadProject& read) {
 
 namespace {
 
+bool has_unsaved_sweep(const Workbench& bench, std::uint64_t scene) {
+  return std::ranges::any_of(bench.scenes.sweeps().all(), [scene](const Sweep& sweep) {
+    return !sweep.is_saved && std::ranges::count(sweep.scenes, scene, &SweepScene::scene) > 0;
+  });
+}
+
 bool has_unsaved_work(const Workbench& bench, const OpenScene& open) {
   const auto unsaved = bench.document.unsavedScenes();
   const auto is_running_in = [&](Lane lane) {
@@ -320,8 +328,8 @@ bool has_unsaved_work(const Workbench& bench, const OpenScene& open) {
   };
   return !std::ranges::all_of(open.estimates, &EstimateEntry::is_saved) ||
          open.labels.is_worth_keeping() || has_work(open.place) ||
-         std::ranges::count(unsaved, open.id) > 0 || is_running_in(Lane::Estimate) ||
-         is_running_in(Lane::Label);
+         std::ranges::count(unsaved, open.id) > 0 || has_unsaved_sweep(bench, open.id) ||
+         is_running_in(Lane::Estimate) || is_running_in(Lane::Label);
 }
 
 // A built-in scene is what a start without a file shows. Whatever was done stays open.

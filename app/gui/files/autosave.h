@@ -72,6 +72,7 @@ class Autosave : public QObject {
   std::filesystem::path root_;
   std::filesystem::path project_file_;
   std::unique_ptr<Workspace> workspace_;
+  std::vector<std::unique_ptr<Workspace>> former_;  // results may still be in their files alone
   std::map<std::uint64_t, std::filesystem::path> label_files_;  // of scenes, written here
   bool is_writing_ = false;
   bool is_due_ = false;

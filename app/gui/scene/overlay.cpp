@@ -245,7 +245,10 @@ void Overlay::draw() {
   const MapChoice drawn_choice = choice();
   drawMap(drawn_choice);
   viewer_area_.canvas()->setOverlay(picture_);
-  if (!picture_.isNull()) session_.see(drawn_choice.estimate);
+  if (!picture_.isNull()) {
+    session_.see(drawn_choice.estimate);
+    session_.see(drawn_choice.other);
+  }
   showLook();
   showScale(drawn_choice);
   if (session_.scene()) showCaption(drawn_choice);

@@ -411,7 +411,7 @@ void SceneOpener::end(quint64 number, const Load& load) {
 }
 
 void SceneOpener::keepBuiltin(const QString& input) {
-  jobs_.start<bool>(
+  const quint64 job = jobs_.start<bool>(
       Lane::Export, tr("Caching the built-in scene"),
       [scene = session_.scene(), input = input.toStdString(),
        folder = cache_folder_](const Progress& progress) {
@@ -419,6 +419,7 @@ void SceneOpener::keepBuiltin(const QString& input) {
         return true;
       },
       [](bool) {});
+  jobs_.setExpendable(job);
 }
 
 void SceneOpener::close() {

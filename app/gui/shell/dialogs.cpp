@@ -98,9 +98,12 @@ class FileOrFolderDialog : public QFileDialog {
 
  protected:
   void accept() override {
-    const QString typed = selectedFiles().value(0);
-    const bool is_typed = qobject_cast<QLineEdit*>(focusWidget()) != nullptr;
-    is_typed&& QFileInfo(typed).isDir() ? takeFolder(typed) : QFileDialog::accept();
+    const auto* edit = findChild<QLineEdit*>("fileNameEdit");
+    const QString name = edit ? QFileInfo(edit->text()).fileName() : QString();
+    const bool is_named = !name.isEmpty() && name != "." && name != "..";
+    const QString folder = selectedFiles().value(0);
+    if (is_named && QFileInfo(folder).isDir()) return takeFolder(folder);
+    QFileDialog::accept();
   }
 };
 

@@ -12,14 +12,11 @@
 #include "engine/io/base/image_file.h"
 #include "engine/io/base/image_header.h"
 #include "engine/io/base/json.h"
-#include "engine/io/formats/image_grid.h"
 #include "engine/io/models/choose_layout.h"
 #include "engine/io/models/labels/label_pictures.h"
 #include "engine/io/models/mat5.h"
 #include "engine/io/models/names/view_folders.h"
 #include "engine/io/models/numpy_file.h"
-#include "engine/io/models/sidecar_maps/find_maps.h"
-#include "engine/io/models/sidecar_maps/scene_files.h"
 
 #include <nlohmann/json.hpp>
 
@@ -474,23 +471,12 @@ CollectionEntry entry_at(const fs::path& path, const FolderListing& files) {
   return entry;
 }
 
-/// Truth and labels that lie beside the file of a light field.
-void add_maps_named_after(const fs::path& file, SceneProbe& probe) {
-  std::error_code error;
-  if (!fs::is_regular_file(file, error)) return;
-  const bool is_only = suffix_of(file) == ".npy";  // only there maps may be called after nothing
-  const SceneFiles own({file.stem().string()}, light_fields_beside(file), is_only,
-                       file.filename().string());
-  add_maps_beside(find_maps({probe.grid, {}}, file.parent_path(), own), probe);
-}
-
 /// Completes an entry by what its headers tell, or by why they cannot be read. Throws NoLightField.
 void probe(const FoundReader& found, CollectionEntry& entry) {
   entry.reader = found.reader->id;
   if (!found.reader->probe) return;
   try {
     entry.probe = found.reader->probe(found.path, {});
-    add_maps_named_after(found.path, entry.probe);
   } catch (const NoLightField&) {
     throw;
   } catch (const Error& error) {

@@ -359,12 +359,6 @@ std::string maps_text(const FoundMapSets& maps, MapKind kind, const char* name) 
 
 }  // namespace
 
-void add_maps_beside(const FoundMapSets& maps, SceneProbe& probe) {
-  if (probe.truth.empty()) probe.truth = maps_text(maps, MapKind::Disparity, "disparity");
-  if (probe.truth.empty()) probe.truth = maps_text(maps, MapKind::Depth, "depth");
-  if (probe.labels.empty()) probe.labels = maps_text(maps, MapKind::Labels, "labels");
-}
-
 SceneProbe probe_views(const ViewFiles& given) {
   const ViewFiles views = look_alike(given) ? given : those_alike(given);
   const ImageHeader header = read_image_header(views.file(views.grid.center()));
@@ -384,7 +378,10 @@ SceneProbe probe_image_grid(const std::filesystem::path& folder, const OpenOptio
     probe.list = placed.views.grid.count();
     probe.grid = given_grid(options).value_or(GridShape());
   }
-  add_maps_beside(find_maps(placed.views, inside), probe);
+  const FoundMapSets maps = find_maps(placed.views, inside);
+  probe.truth = maps_text(maps, MapKind::Disparity, "disparity");
+  if (probe.truth.empty()) probe.truth = maps_text(maps, MapKind::Depth, "depth");
+  probe.labels = maps_text(maps, MapKind::Labels, "labels");
   return probe;
 }
 

@@ -3,7 +3,6 @@
 
 #include "engine/io/models/load_views.h"
 #include "engine/io/models/reader.h"
-#include "engine/io/models/sidecar_maps/find_maps.h"
 
 #include <filesystem>
 #include <functional>
@@ -42,10 +41,6 @@ struct ImageGridExtras {
 /// the last view has another size or cannot be decoded, predicts from headers what
 /// `load_usable_views` will open. Throws IoError.
 [[nodiscard]] SceneProbe probe_views(const ViewFiles& views);
-
-/// Adds disparity, else depth, and labels that lie beside views, where the views themselves hold
-/// none.
-void add_maps_beside(const FoundMapSets& maps, SceneProbe& probe);
 
 /// Probes a folder of images by names, headers and names of maps beside them. Throws IoError,
 /// InvalidInput as reading does.

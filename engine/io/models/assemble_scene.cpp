@@ -344,9 +344,12 @@ void tell_what_is_misplaced(const SceneParts& parts, ConventionReport& report,
                             const Progress& progress) {
   constexpr double kEqual = 0.05;
   const GridShape grid = grid_of(parts.samples);
-  const double step = view_places(parts.info, grid).row_step;
+  const ViewPlaces places = view_places(parts.info, grid);
+  const double step = places.row_step;
   if (std::max(step, 1 / step) > 1 + kEqual) {
-    report.warnings.push_back(fmt::format(finding_text("camera.unequal"), step, grid.u));
+    report.warnings.push_back(places.kind == PlacesKind::Irregular
+                                  ? fmt::format(finding_text("camera.unequal"), step, grid.u)
+                                  : fmt::format(finding_text("camera.too_unequal"), step, grid.u));
   }
   if (is_mapped(parts.samples)) return;
   append(report.warnings, find_misplaced_views(parts.samples, progress));

@@ -170,7 +170,7 @@ Hdf5Dataset find_map(const Hdf5Input& file) {
   if (std::ranges::any_of(maps, is_float)) std::erase_if(maps, std::not_fn(is_float));
   for (const Hdf5Dataset& other : maps.empty() ? file.datasets() : std::vector<Hdf5Dataset>()) {
     const std::string fault = file.fault_of(other.name);
-    if (fault.empty()) continue;
+    if (fault.empty() || other.shape.size() < 2) continue;
     throw IoError(file.path(), "the dataset " + other.name + " " + fault +
                                    "; store numbers alone, each field as a dataset of its own");
   }

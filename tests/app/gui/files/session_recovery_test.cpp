@@ -19,6 +19,7 @@
 #include <QToolButton>
 
 #include <csignal>
+#include <filesystem>
 #include <memory>
 #include <random>
 
@@ -108,6 +109,7 @@ class SessionRecoveryTest : public QObject {
   void recoveredSession_isToldWhenItIsShown();
   void recoveredScene_isNamedWhileItIsRead();
   void whatWasDoneBeforeTheOffer_staysOpen();
+  void twoSessions_areBothRecovered();
   void offer_isKeptByItsCross_andTheDemoWaitsForIt();
   void discardedSession_isGone();
   void sceneThatWasOnlyLookedAt_comesBackClean();
@@ -172,9 +174,10 @@ void SessionRecoveryTest::recoveredSession_isKeptAgain() {
 namespace {
 
 // A session of one scene with a result that nobody decided about.
-void leave_session(const WindowFixture& files, const QString& state) {
+void leave_session(const WindowFixture& files, const QString& state,
+                   const std::string& id = "edge") {
   Recovering f(state);
-  f.open(files.writeScene("edge", WindowFixture::smallOptions()), 1);
+  f.open(files.writeScene(id, WindowFixture::smallOptions()), 1);
   f.estimate();
   QTRY_VERIFY(!f.session().estimates()[0].kept.empty());
   QTRY_VERIFY(f.autosave().isIdle());
@@ -218,6 +221,26 @@ void SessionRecoveryTest::whatWasDoneBeforeTheOffer_staysOpen() {
   QVERIFY(f.window.findChildren<QMessageBox*>().isEmpty());
   QCOMPARE(f.session().find_scene(own)->estimates.size(), std::size_t{1});
   QCOMPARE(f.window.bench().document.unsavedScenes(), std::vector{own});
+}
+
+// Results of the first may be in its files alone.
+void SessionRecoveryTest::twoSessions_areBothRecovered() {
+  const QTemporaryDir state;
+  const WindowFixture files;
+  leave_session(files, state.path(), "edge");
+  leave_session(files, state.path(), "slant");
+  Recovering f(state.path());
+
+  QVERIFY(f.recover());
+  QTRY_VERIFY(f.bar()->isVisible());
+  f.bar()->findChild<QPushButton*>("message.action")->click();
+
+  QTRY_COMPARE_WITH_TIMEOUT(f.session().scenes().size(), std::size_t{2}, kScenePatience);
+  QTRY_VERIFY(f.autosave().isIdle());
+  for (const OpenScene* each : f.session().scenes()) {
+    QCOMPARE(each->estimates.size(), std::size_t{1});
+    QVERIFY(std::filesystem::exists(each->estimates[0].kept));
+  }
 }
 
 void SessionRecoveryTest::recoveredScene_isNamedWhileItIsRead() {

@@ -3,7 +3,6 @@
 #include "engine/core/error.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/base/image_header.h"
-#include "engine/io/base/npy.h"
 #include "engine/io/formats/write_arrays.h"
 #include "engine/io/formats/write_scene.h"
 #include "engine/io/models/result_file.h"
@@ -132,20 +131,6 @@ class CollectionTest : public QObject {
     QCOMPARE(entries[0].probe.labels, std::string("labels of one view"));
     QCOMPARE(entries[1].probe.truth, std::string());
     QCOMPARE(entries[1].probe.labels, std::string());
-  }
-
-  void mapsBesideAFile_areListed() {
-    io::write_archive(made("files") / "cotton.h5", scene_, Progress(1));
-    Scene bare = scene_;
-    bare.truth = std::make_shared<GroundTruth>();
-    io::write_archive(made("bare") / "dino.h5", bare, Progress(1));
-    io::write_npy<float>(root() / "bare/dino_disparity.npy", {24, 32},
-                         std::vector<float>(24 * 32, 0.5F));
-
-    for (const auto& entry : found()) {
-      if (entry.name == "dino") QCOMPARE(entry.probe.truth, std::string("disparity of one view"));
-    }
-    QCOMPARE(found().size(), std::size_t{2});
   }
 
   void files_inOneFolderAreOneLightFieldEach() {
