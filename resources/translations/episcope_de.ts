@@ -5238,7 +5238,7 @@ s</translation>
     </message>
     <message>
         <source>bad .07</source>
-        <translation>schlecht .07</translation>
+        <translation>schl. .07</translation>
     </message>
     <message>
         <source>Pixels off by more than 0.07 px, in %</source>
@@ -5246,7 +5246,7 @@ s</translation>
     </message>
     <message>
         <source>bad .03</source>
-        <translation>schlecht .03</translation>
+        <translation>schl. .03</translation>
     </message>
     <message>
         <source>Pixels off by more than 0.03 px, in %</source>
@@ -5254,7 +5254,7 @@ s</translation>
     </message>
     <message>
         <source>bad .01</source>
-        <translation>schlecht .01</translation>
+        <translation>schl. .01</translation>
     </message>
     <message>
         <source>Pixels off by more than 0.01 px, in %</source>
