@@ -3,6 +3,7 @@
 
 #include "annotation/exchange.h"
 #include "app/gui/annotate/annotate_controller.h"
+#include "app/gui/annotate/annotation_files.h"
 #include "app/gui/annotate/segment_controller.h"
 #include "app/gui/shell/commands.h"
 #include "app/gui/shell/dialogs.h"
