@@ -140,6 +140,11 @@ struct KeptLabels {
   [[nodiscard]] bool covers_many() const { return labeling && labeling->labels.grid().count() > 1; }
   /// Whether painting does not give them again in a moment.
   [[nodiscard]] bool is_worth_keeping() const { return covers_many() || is_imported; }
+  [[nodiscard]] bool is_on_disk_alone() const { return !labeling && !file.empty(); }
+  /// Whether they would be lost with the window.
+  [[nodiscard]] bool is_unsaved() const {
+    return !is_saved && (is_worth_keeping() || is_on_disk_alone());
+  }
 };
 
 [[nodiscard]] std::uint64_t hash_of(const ScribbleLayer& strokes);

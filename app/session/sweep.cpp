@@ -62,6 +62,10 @@ bool has_truth(const SweepScene& scene) {
   });
 }
 
+bool is_of_scene(const Sweep& sweep, std::uint64_t scene) {
+  return std::ranges::count(sweep.scenes, scene, &SweepScene::scene) > 0;
+}
+
 std::size_t point_count(const Sweep& sweep) {
   std::size_t count = 0;
   for (const SweepScene& scene : sweep.scenes) count += scene.points.size();

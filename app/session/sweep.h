@@ -63,6 +63,8 @@ struct Sweep {
   bool is_saved = false;  ///< A file of the user's holds what is there.
 };
 
+[[nodiscard]] bool is_of_scene(const Sweep& sweep, std::uint64_t scene);
+
 /// Points of all scenes.
 [[nodiscard]] std::size_t point_count(const Sweep& sweep);
 

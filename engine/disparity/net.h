@@ -17,8 +17,8 @@ enum class Silhouettes { Mode, Mean };
 struct NetParameters {
   Interval range;  ///< Disparities that are looked for, px per view step.
   Silhouettes silhouettes = Silhouettes::Mode;
-  int rounds = 2;  ///< Of the selection.
-  NetPlaces places = nullptr;
+  int rounds = 2;              ///< Of the selection.
+  NetPlaces places = nullptr;  ///< Where the cameras stand.
 };
 
 /// What `net` finds for one view, `[y][x]`.

@@ -41,7 +41,7 @@ enum class NetEvidenceOf { Planes, Maps };
 /// must live longer.
 class NetEvidence {
  public:
-  /// For disparities within `disparities`.
+  /// For disparities within `disparities`; cameras stand at `places`.
   NetEvidence(const LightField& light_field, ViewIndex reference, Interval disparities,
               NetEvidenceOf kind, const NetPlaces& places = nullptr);
 

@@ -150,7 +150,7 @@ bool SegmentController::isComing() const {
   const bool lacks_strokes = live_.state() == LiveState::Hint || live_.state() == LiveState::Failed;
   const KeptLabels& kept = session_.labels();
   return live_.is_running() || is_wanted_ || (is_live_ && !lacks_strokes) || isSegmentingAll() ||
-         awaiting_.contains(session_.generation()) || (!kept.labeling && !kept.file.empty());
+         awaiting_.contains(session_.generation()) || kept.is_on_disk_alone();
 }
 
 QString SegmentController::title(render::Quantity quantity) const {
@@ -532,7 +532,7 @@ void SegmentController::endAllViewsOfClosed() {
 // Keeps the newest final labels with the scene. Labels of one view never replace labels of all.
 void SegmentController::keep(const LabelingPtr& labeling, const LabelingInput& input) {
   const KeptLabels& kept = session_.labels();
-  const bool keeps_all = kept.covers_many() || (!kept.labeling && !kept.file.empty());
+  const bool keeps_all = kept.covers_many() || kept.is_on_disk_alone();
   if (labeling->is_draft || labeling == kept.labeling) return;
   if (labeling->labels.grid().count() == 1 && keeps_all) return;
   session_.set_labels(session_.generation(),

@@ -173,7 +173,7 @@ void Photographs::askForRectified() {
 
 void Photographs::calibrate(const QStringList& photographs, const capture::Pattern& pattern) {
   bench_.jobs.start<capture::Calibration>(
-      Lane::Capture, job_title(tr("Calibrating the lens"), bench_.session),
+      Lane::Capture, tr("Calibrating the lens"),
       [files = paths_of(photographs), pattern](const Progress& progress) {
         return capture::calibrate(files, pattern, progress);
       },

@@ -313,12 +313,6 @@ void read_strokes(ReadProject& read) {
 
 namespace {
 
-bool has_unsaved_sweep(const Workbench& bench, std::uint64_t scene) {
-  return std::ranges::any_of(bench.scenes.sweeps().all(), [scene](const Sweep& sweep) {
-    return !sweep.is_saved && std::ranges::count(sweep.scenes, scene, &SweepScene::scene) > 0;
-  });
-}
-
 bool has_unsaved_work(const Workbench& bench, const OpenScene& open) {
   const auto unsaved = bench.document.unsavedScenes();
   const auto is_running_in = [&](Lane lane) {
@@ -326,9 +320,13 @@ bool has_unsaved_work(const Workbench& bench, const OpenScene& open) {
       return each.scene == open.id && !each.is_expendable;
     });
   };
+  const auto is_unsaved_here = [&](const Sweep& sweep) {
+    return !sweep.is_saved && is_of_scene(sweep, open.id);
+  };
   return !std::ranges::all_of(open.estimates, &EstimateEntry::is_saved) ||
-         open.labels.is_worth_keeping() || has_work(open.place) ||
-         std::ranges::count(unsaved, open.id) > 0 || has_unsaved_sweep(bench, open.id) ||
+         open.labels.is_unsaved() || has_work(open.place) ||
+         std::ranges::count(unsaved, open.id) > 0 ||
+         std::ranges::any_of(bench.scenes.sweeps().all(), is_unsaved_here) ||
          is_running_in(Lane::Estimate) || is_running_in(Lane::Label);
 }
 

@@ -314,9 +314,8 @@ bool CollectionController::isTouched(const OpenScene& scene) const {
          scene.labels.is_worth_keeping() || has_work(scene.place) ||
          bench_.jobs.count(Lane::Estimate) > 0 ||
          std::ranges::count(edited, scene.id, &EditedDocument::scene) > 0 ||
-         std::ranges::any_of(sweeps, [&](const Sweep& sweep) {
-           return std::ranges::count(sweep.scenes, scene.id, &SweepScene::scene) > 0;
-         });
+         std::ranges::any_of(sweeps,
+                             [&](const Sweep& sweep) { return is_of_scene(sweep, scene.id); });
 }
 
 // Users who step through a collection do not want all of it open.

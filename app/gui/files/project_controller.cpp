@@ -288,8 +288,7 @@ ProjectGuard::Loss ProjectGuard::loss(Leaving what) const {
     addResults(*scene, loss);
   }
   for (const Sweep& sweep : bench_.scenes.sweeps().all()) {
-    const bool is_left = what != Leaving::Scene ||
-                         std::ranges::count(sweep.scenes, session.generation(), &SweepScene::scene);
+    const bool is_left = what != Leaving::Scene || is_of_scene(sweep, session.generation());
     if (is_left && !sweep.is_saved && point_count(sweep) > 0) {
       loss.results.push_back(
           tr("sweep of %1").arg(QString::fromStdString(sweep.base.method)).toStdString());
@@ -317,10 +316,9 @@ void ProjectGuard::addResults(const OpenScene& scene, Loss& loss) const {
     if (!entry.is_saved) add(QString::fromStdString(entry.name));
   }
   const KeptLabels& labels = scene.labels;
-  const bool is_on_disk_alone = !labels.labeling && !labels.file.empty();
-  if (labels.is_saved || !(labels.is_worth_keeping() || is_on_disk_alone)) return;
-  add(labels.covers_many() || is_on_disk_alone ? tr("labels of all views")
-                                               : tr("labels of one view"));
+  if (!labels.is_unsaved()) return;
+  add(labels.covers_many() || labels.is_on_disk_alone() ? tr("labels of all views")
+                                                        : tr("labels of one view"));
 }
 
 // A light field that is closed ends the jobs on it alone.

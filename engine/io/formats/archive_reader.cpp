@@ -51,7 +51,7 @@ void read_positions(const Hdf5Input& file, GridShape grid, LightFieldInfo& info)
 /// Positions by the distances of cameras side by side and one above the other, if they differ.
 void add_positions(const Hdf5Input& file, GridShape grid, LightFieldInfo& info) {
   if (!info.positions.empty()) return;
-  const double across = read_camera(file).baseline;
+  const double across = info.camera.baseline;
   const auto at_root = file.number("/", "dV");
   const double down = (at_root ? at_root : file.number("LF", "dV")).value_or(across);
   if (!(across > 0) || !(down > 0) || !std::isfinite(down) || down == across) return;

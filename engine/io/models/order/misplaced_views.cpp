@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -24,8 +23,8 @@ namespace {
 constexpr int kLookedAt_px = 512;
 constexpr std::array<int, 2> kSides_px = {160, 40};  ///< Points that move far match in the smaller.
 constexpr double kUnlike = 0.8;  ///< Neighbors that are so unlike show no motion any more.
-constexpr double kClearlyLess =
-    0.75;  ///< Of the unlikeness as stored; views side by side leave .66.
+/// Of the unlikeness as stored; views side by side leave .66.
+constexpr double kClearlyLess = 0.75;
 constexpr double kOutOfPlace = 1.15;  ///< Unlikeness of a view, in that of most.
 constexpr std::size_t kMostCandidates = 16;
 constexpr std::size_t kMostSentences = 3;
@@ -140,10 +139,15 @@ std::vector<ViewIndex> all_views(GridShape grid) {
   return views;
 }
 
-double usual_unlikeness(const Neighborhood& views) {
+/// Of each view to its neighbors, row by row.
+std::vector<double> unlikenesses(const Neighborhood& views) {
   std::vector<double> all;
   for (const ViewIndex view : all_views(views.grid())) all.push_back(views.mean_of(view));
-  return quantile(all, 0.5);
+  return all;
+}
+
+double usual(std::vector<double> unlikenesses) {
+  return quantile(unlikenesses, 0.5);
 }
 
 /// Unlikeness of every row to the next one, of which one is turned round, as a share of that as
@@ -172,10 +176,11 @@ std::string turned_text(const Neighborhood& views) {
 
 /// The views that are most unlike their neighbors.
 std::vector<ViewIndex> candidates(const Neighborhood& views) {
-  const double least = kOutOfPlace * usual_unlikeness(views);
+  const std::vector<double> means = unlikenesses(views);
+  const double least = kOutOfPlace * usual(means);
   std::vector<std::pair<double, ViewIndex>> found;
   for (const ViewIndex view : all_views(views.grid())) {
-    const double mean = views.mean_of(view);
+    const double mean = means[views.index(view)];
     if (mean > least) found.emplace_back(-mean, view);
   }
   std::ranges::sort(found, {}, [](const auto& one) { return one.first; });
@@ -234,7 +239,7 @@ std::vector<std::string> find_misplaced_views(const LightField::Samples& samples
     texts.push_back(fmt::format(finding_text("views.same"), joined(group, " and ", view_text)));
   }
   Neighborhood views(grid, std::move(pictures));
-  if (usual_unlikeness(views) > kUnlike) {
+  if (usual(unlikenesses(views)) > kUnlike) {
     views = Neighborhood(grid, pictures_of(samples, kSides_px[1], progress.part(0.8, 1)));
   }
   const std::string turned = turned_text(views);
