@@ -6,6 +6,7 @@
 #include "engine/scenes/builtin.h"
 
 #include <algorithm>
+#include <cmath>
 #include <variant>
 
 namespace episcope::cuda_tests {
@@ -14,6 +15,7 @@ namespace {
 constexpr const char* kMasked = "masked:";
 constexpr const char* kGrey = "grey:";
 constexpr const char* kFloat = "float:";
+constexpr const char* kMoved = "moved:";
 
 bool has_profiles(const Estimator& estimator) {
   return std::ranges::any_of(estimator.parameters,
@@ -63,6 +65,19 @@ void change(Scene& scene, const std::string& how) {
   scene.light_field = std::make_shared<LightField>(std::move(changed), lf.info(), std::move(mask));
 }
 
+// Cameras stand up to a quarter of a step beside the grid, and the file says so.
+std::vector<CameraPosition> moved_cameras(GridShape grid) {
+  std::vector<CameraPosition> positions;
+  const ViewIndex center = grid.center();
+  for (int i = 0; i < grid.count(); ++i) {
+    const ViewIndex view = grid.view_at(i);
+    const double off = view == center ? 0 : 0.25;
+    positions.push_back(
+        {view.u - center.u + off * std::sin(5 * i), view.v - center.v + off * std::cos(7 * i)});
+  }
+  return positions;
+}
+
 }  // namespace
 
 Kind kind_of(const Estimator& estimator) {
@@ -100,6 +115,7 @@ std::vector<std::string> scene_texts() {
           "random?seed=8&noise=4",
           "transparent",
           std::string(kMasked) + "random?seed=5",
+          std::string(kMoved) + "random?seed=2",
           "random?seed=4&grid=1x9",
           "random?seed=4&grid=6x1",
           std::string(kGrey) + "random?seed=6&grid=4x2",
@@ -112,8 +128,10 @@ Scene make_scene(const std::string& text, int size) {
   scenes::BuiltinRequest request = scenes::read_request(text.substr(begin));
   request.options.height = size;
   request.options.width = size + size / 8;
+  const std::string how = text.substr(0, begin);
+  if (how == kMoved) request.options.positions = moved_cameras(request.options.grid);
   Scene scene = scenes::render_builtin(request.scene, request.options, Progress());
-  if (begin > 0) change(scene, text.substr(0, begin));
+  if (!how.empty() && how != kMoved) change(scene, how);
   return scene;
 }
 

@@ -16,7 +16,6 @@ namespace episcope::cuda_tests {
 namespace {
 
 constexpr double kMistaken = 0.3;
-constexpr double kLabelShare = 0.999;
 
 struct Input {
   LabelProbabilities probabilities;

@@ -19,6 +19,9 @@ struct LabelRun {
   double share = 1;  ///< Of the bytes, what must be equal on both devices.
 };
 
+/// Of the labels of two devices, what must be equal.
+inline constexpr double kLabelShare = 0.999;
+
 /// Labels of a scene from probabilities that are mistaken in 30 % of the rays, within each view and
 /// along the rays; and the whole labeler from strokes and the true disparity, where this build has
 /// it. The scene must have true labels and disparity; it must outlive the runs.

@@ -11,8 +11,6 @@
 namespace episcope::cuda_tests {
 namespace {
 
-constexpr double kLabelShare = 0.999;
-
 Scribbles strokes_of(const Scene& scene) {
   const ViewIndex center = scene.light_field->center();
   Scribbles strokes;
