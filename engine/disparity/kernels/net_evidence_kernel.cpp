@@ -91,21 +91,15 @@ inline void add_columns(const Run& run, int first, int last, const Corners& from
   }
 }
 
-// Rounded to a float before anything is added to it, on every processor: whether the samples of a
-// column lie within a view may depend on the last bit.
-inline float product(float a, float b) {
-  return static_cast<float>(static_cast<double>(a) * b);
-}
-
 // Adds how far one view is from the reference, at one disparity.
 template <bool kHasInvalid>
 inline void add_plane(const NetEvidenceRow& row, const NetView& view, const Run& run, float d,
                       Sums& sums) {
-  const float y = static_cast<float>(row.y) - product(d, view.dv);
+  const float y = static_cast<float>(row.y) - d * view.dv;
   if (!(y >= 0 && y <= static_cast<float>(row.height - 1))) return;
   const int upper = static_cast<int>(y);
   const int lower = upper + 1 < row.height ? upper + 1 : upper;
-  const float shift = product(-d, view.du);
+  const float shift = -d * view.du;
   const int whole = static_cast<int>(__builtin_floorf(shift));
   const float right = shift - static_cast<float>(whole), below = y - static_cast<float>(upper);
   // Pixels whose sample x + shift lies in [0, width − 1].

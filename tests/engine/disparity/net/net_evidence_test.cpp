@@ -88,7 +88,6 @@ class NetEvidenceTest : public QObject {
   void sectors_areThoseOfTheVectors_data();
   void sectors_areThoseOfTheVectors();
   void planesAndMaps_agree();
-  void sampleOfTheLastColumn_countsWhereTheShiftRoundsToIt();
   void severalAtOnce_areThoseOfEach();
   void sampleTypes_agree();
   void bands_changeNothing();
@@ -179,24 +178,6 @@ void NetEvidenceTest::planesAndMaps_agree() {
       whole_evidence(light_field, vector_range(), Image<float>(28, 32, 1, d));
 
   QVERIFY(largest_difference(plane, map) < kTolerance);
-}
-
-// Three thirds are one, also where products are not rounded before they are added.
-void NetEvidenceTest::sampleOfTheLastColumn_countsWhereTheShiftRoundsToIt() {
-  constexpr int kWidth = 12;
-  const LightField light_field =
-      make_light_field({1, 4}, 3, kWidth, 3,
-                       [](ViewIndex view, int, int, int) { return view.u == 3 ? 0.9F : 0.2F; });
-  NetEvidence evidence(light_field, {0, 0}, {-1, 1}, NetEvidenceOf::Planes);
-  evidence.hold(0, 3, Progress());
-  std::vector<float> row(kWidth * kNetEvidence);
-  NetDisparity third{.map = nullptr, .same = -1.0F / 3};
-  third.out = row.data();
-
-  evidence.compute(1, {&third, 1});
-
-  const float* const last = &row[(kWidth - 2) * kNetEvidence];
-  QVERIFY(std::equal(last, last + kNetEvidence, last - kNetEvidence));
 }
 
 // Rows longer than what is summed for at once, and samples outside the views at both ends.
