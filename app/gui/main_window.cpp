@@ -329,6 +329,7 @@ MainWindow::MainWindow(QWidget* parent)
             messages.warn(sentence);
             messages.endWithLightField();
           });
+  connect(&bench.opener, &SceneOpener::failed, &bench.messages, &Messages::fail);
   connect(&bench.opener, &SceneOpener::failureIsOver, &bench.messages, &Messages::retract);
   bench.cancels.add(CancelRank::Job,
                     [&cancel = bench.job_cancel] { return cancel.cancelNewest(); });

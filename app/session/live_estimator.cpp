@@ -433,7 +433,7 @@ void LiveEstimator::start(const LiveRequest& request) {
 }
 
 void LiveEstimator::take(LiveMap map) {
-  (map.is_coarse ? coarse_seconds_ : full_seconds_) = map.seconds;
+  (map.is_coarse ? coarse_seconds_ : full_seconds_) = map.estimate->seconds;
   stage_ = map.is_coarse ? LiveStage::Full : LiveStage::Idle;
   map_ = std::move(map);
   on_changed_();

@@ -76,7 +76,8 @@ class LiveEstimator {
   [[nodiscard]] const std::string& sentence() const { return sentence_; }
   /// The newest map of this light field, maybe of a former request; none if there is none yet.
   [[nodiscard]] const std::optional<LiveMap>& map() const { return map_; }
-  /// How long the coarse map of the newest request took, and the full one; none = it is not there.
+  /// How long the method took for the coarse map of the newest request, and for the full one; none
+  /// = it is not there.
   [[nodiscard]] std::optional<double> coarse_seconds() const { return coarse_seconds_; }
   [[nodiscard]] std::optional<double> full_seconds() const { return full_seconds_; }
 

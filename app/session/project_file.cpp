@@ -167,6 +167,7 @@ Json result_json(const ProjectResult& result, const fs::path& project) {
             {"shown", result.is_shown},
             {"compared", result.is_compared}};
   if (result.was_shown_before) json["shown_before"] = true;
+  if (result.is_saved) json["saved"] = true;
   if (!result.note.empty()) json["note"] = result.note;
   if (!result.foreign_file.empty()) json["foreign_file"] = result.foreign_file.string();
   return json;
@@ -216,6 +217,7 @@ ProjectResult result_of(const Json& json, const fs::path& project) {
           .is_shown = json.at("shown"),
           .is_compared = json.at("compared"),
           .was_shown_before = json.value("shown_before", false),
+          .is_saved = json.value("saved", false),
           .note = json.value("note", ""),
           .foreign_file = json.value("foreign_file", "")};
 }

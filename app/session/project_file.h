@@ -20,6 +20,7 @@ struct ProjectResult {
   bool is_shown = false;
   bool is_compared = false;
   bool was_shown_before = false;         ///< B, although it was not chosen to be.
+  bool is_saved = false;                 ///< EstimateEntry::is_saved.
   std::string note{};                    ///< EstimateEntry::note.
   std::filesystem::path foreign_file{};  ///< EstimateEntry::foreign_file.
   int id = 0;              ///< EstimateEntry::id. Not part of a project file, as what follows.

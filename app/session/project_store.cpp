@@ -164,6 +164,7 @@ ProjectResult result_of(const EstimateEntry& entry) {
   return {.name = entry.name,
           .file = entry.kept,
           .display_range = entry.display_range,
+          .is_saved = entry.is_saved,
           .note = entry.note,
           .foreign_file = entry.foreign_file,
           .id = entry.id,
@@ -224,7 +225,7 @@ OpenScene scene_of(const ProjectScene& scene, bool is_saved) {
                               .name = result.name,
                               .estimate = nullptr,
                               .display_range = result.display_range,
-                              .is_saved = is_saved,
+                              .is_saved = is_saved || result.is_saved,
                               .kept = result.file,
                               .note = result.note,
                               .foreign_file = result.foreign_file});

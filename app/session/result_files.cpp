@@ -278,10 +278,7 @@ std::string poor_fit_text(const Estimate& estimate, const Scene& scene) {
 std::string poor_fit_text(const DisparityView& map, const DisparityView& truth) {
   const auto fit = io::find_poor_fit(map, truth);
   if (!fit) return {};
-  return fmt::format(
-      "the map explains little of the truth: MSE×100 {:.3g} against {:.3g} of the best constant "
-      "map; check its scale, units and view",
-      fit->mse_100, fit->constant_mse_100);
+  return fmt::format(finding_text("map.poor"), fit->mse_100, fit->constant_mse_100);
 }
 
 namespace {
@@ -313,14 +310,14 @@ std::string map_options_text(const io::MapReading& reading) {
 std::string better_reading_finding(const io::BetterReading& found) {
   const bool is_by_truth = found.as_read.mse_100.has_value();
   return fmt::format("the map {} far better with {} ({}){}",
-                     is_by_truth ? "fits the truth" : "explains the views",
+                     is_by_truth ? "fits the ground truth" : "explains the views",
                      io::reading_text(found.reading), both_numbers(found),
                      found.is_contradicted() ? ", but the views fit it as it is" : "");
 }
 
 std::string better_reading_text(const io::BetterReading& found) {
   const char* remedy =
-      found.is_contradicted() ? ": check the truth, or add" : "; if it is stored so, add";
+      found.is_contradicted() ? ": check the ground truth, or add" : "; if it is stored so, add";
   return better_reading_finding(found) + remedy + map_options_text(found.reading);
 }
 
@@ -363,6 +360,12 @@ std::string exchanged_views_text(const Estimate& estimate, const Scene& scene) {
 }
 
 }  // namespace
+
+bool is_ground_truth(const Estimate& estimate, const Scene& scene) {
+  const auto view = compared_view(estimate, scene);
+  return estimate.version.empty() && view && scene.truth->field.contains(*view) &&
+         mse_100(estimate.field.view(*view), scene.truth->field.view(*view)) == 0;
+}
 
 std::string doubt_text(const std::optional<io::BetterReading>& better, const Estimate& estimate,
                        const Scene& scene) {

@@ -56,12 +56,15 @@ namespace episcope {
                                                                    const Scene& scene);
 
 /// Says with both numbers that a result explains little of the truth (io::find_poor_fit), in the
-/// same view: "the map explains little of the truth: …"; else empty. Results that were estimated
-/// from the samples of the light field are not doubted. For results that no other reading explains
-/// better.
+/// same view: "the map explains little of the ground truth: …"; else empty. Results that were
+/// estimated from the samples of the light field are not doubted. For results that no other reading
+/// explains better.
 [[nodiscard]] std::string poor_fit_text(const Estimate& estimate, const Scene& scene);
 /// Says so of a map of any origin; else empty.
 [[nodiscard]] std::string poor_fit_text(const DisparityView& map, const DisparityView& truth);
+
+/// Whether a map of another program is the ground truth itself, number for number.
+[[nodiscard]] bool is_ground_truth(const Estimate& estimate, const Scene& scene);
 
 /// The warnings of a scene that tell of the truth by which results are judged.
 [[nodiscard]] std::vector<std::string> truth_warnings(const ConventionReport& report);
@@ -71,8 +74,8 @@ namespace episcope {
 [[nodiscard]] std::string doubt_text(const std::optional<io::BetterReading>& better,
                                      const Estimate& estimate, const Scene& scene);
 
-/// Says so with both numbers: "the map fits the truth far better with rows and columns exchanged
-/// (…)", and whether the views contradict it.
+/// Says so with both numbers: "the map fits the ground truth far better with rows and columns
+/// exchanged (…)", and whether the views contradict it.
 [[nodiscard]] std::string better_reading_finding(const io::BetterReading& found);
 
 /// The same with the options that apply it: "…; if it is stored so, add --map-transpose".

@@ -93,8 +93,9 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
      "--no-equalize, methods even it out.",
      "Brightness differs by %1 %"},
     {"brightness.differs",
-     "The brightness of the views differs by up to {:.1f} % (view {}: {:.3f}); methods even it "
-     "out, --equalize for pictures as well, --no-equalize for none.",
+     "The brightness of the views differs by up to {:.1f} % (view {}: {:.3f}). Methods even it "
+     "out; "
+     "--equalize evens out the pictures, too, and --no-equalize leaves all as it is.",
      "Brightness differs by %1 %"},
     {"gain.same", "the same in all views"},
     {"gain.differs", "differs by up to {:.1f} % (view {}: {:.3f})"},
@@ -219,12 +220,13 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
      "checked by the slopes of horizontal and vertical EPIs: correlation {} as stored at {} "
      "points, "
      "so exactly one axis is reversed"},
-    {"order.by_truth", "checked against truth, mean grey error after warping: {}"},
+    {"order.by_truth", "checked against the ground truth, mean grey error after warping: {}"},
     {"order.by_doubtful_truth",
-     "by the truth, which is in doubt, mean grey error after warping: {}"},
+     "by the ground truth, which is in doubt, mean grey error after warping: {}"},
     {"order.axis_errors", "{} {} (other way {}), {} {} (other way {})"},
     {"order.swapped_by_truth",
-     "by the truth: mean grey error of neighboring views after warping {:.2f}, as stored {:.2f}"},
+     "by the ground truth: mean grey error of neighboring views after warping {:.2f}, as stored "
+     "{:.2f}"},
     {"order.by_occlusion", "checked by {}"},
     {"order.direction", "direction checked by {}"},
     {"order.of_pictures", "the pictures of a file do not say how they are ordered"},
@@ -240,12 +242,13 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
     {"order.axes_unclear", "not checked (motion between views does not tell rows from columns)"},
     {"sign.occlusion", "occlusion: {} points to {}, in {} squares of the view to {}"},
     {"sign.by", "by occlusion: {} points to {}, in {} squares of the view to {}"},
-    {"sign.by_truth", "by truth: {}"},
+    {"sign.by_truth", "by the ground truth: {}"},
     {"sign.by_poses", "by the camera poses, which define right and down"},
     {"sign.by_hand", "the order was chosen by hand"},
-    {"sign.doubtful_truth", "the truth is in doubt"},
+    {"sign.doubtful_truth", "the ground truth is in doubt"},
     {"sign.either",
-     "the truth fits this order of views, and negated the opposite one; nothing tells which is "
+     "the ground truth fits this order of views, and negated the opposite one; nothing tells which "
+     "is "
      "right"},
     {"sign.few_views", "occlusion cannot be seen in fewer than three views in a row"},
     {"sign.larger_hide", "larger values are nearer: they {}"},
@@ -352,13 +355,18 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
     {"map.no_view",
      "{} of {} files {} belong to no view by their numbers, such as {}: they are not used.",
      "%1 of %2 files %3 match no view."},
+    {"map.poor",
+     "the map explains little of the ground truth: MSE×100 {:.3g} against {:.3g} of the best "
+     "constant "
+     "map; check its scale, units and view"},
     {"map.views_exchanged",
-     "Rows and columns of views seem to be exchanged in these maps: against the truth of view {}, "
+     "Rows and columns of views seem to be exchanged in these maps: against the ground truth of "
+     "view {}, "
      "the map of that view has MSE×100 {:.3g}, that of view {} {:.3g}. Exchange the first two axes "
      "of the array.",
      "Rows and columns of views seem to be exchanged."},
     {"map.masked", "{} leaves out {:.1f} % of the ground truth.",
-     "%1 leaves out %2 % of the truth."},
+     "%1 leaves out %2 % of the ground truth."},
     {"map.row_by_row", "The {} maps of {} are taken for those of the views, row by row.",
      "The maps of %2 are taken row by row."},
     {"map.border",
@@ -382,21 +390,35 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
      "stored "
      "{}"},
     {"units.fit", "{:.1f} % of the depth map agree within 0.01 px with d = {:.6g}/Z {} {:.6g}"},
+    {"units.stored", "d = dH·focalLength/Z − shift with {}: {} … {} px for depth {} … {}"},
+    {"units.as_stored", "dH and shift as stored"},
+    {"units.width", "dH and shift times xRes"},
+    {"units.width_of_dh", "dH times xRes, shift as stored"},
     {"units.camera", "the camera follows from disparity and depth"},
     // Files.
     {"dataset.left_out", "{} {}: left out."},
+    {"dataset.elsewhere", "is a link to another file, which is not followed"},
+    {"dataset.nothing", "is a link to nothing"},
+    {"dataset.samples_elsewhere", "has its samples in other files, which are not read"},
+    {"dataset.empty", "is empty"},
+    {"dataset.records", "holds records of several fields (compound)"},
+    {"dataset.no_numbers", "holds no numbers"},
+    {"dataset.array", "array of {}"},
+    {"dataset.null", "empty dataset"},
     {"companion.ignored", "The file of {} is ignored: {}.", "The file of %1 is ignored."},
     {"attribute.unlike",
      "The attribute {} says {}, but LF has {} along that axis; the shape of LF is used.",
      "The attribute %1 does not fit."},
     {"config.sign",
-     "disp_min and disp_max of {} have the other sign than the truth, in which larger values are "
+     "disp_min and disp_max of {} have the other sign than the ground truth, in which larger "
+     "values are "
      "nearer; they were negated.",
      "disp_min and disp_max were negated."},
     {"config.range",
-     "{} promises disparities of {:.2f} … {:.2f} px, but the truth has {:.2f} … {:.2f} px; methods "
+     "{} promises disparities of {:.2f} … {:.2f} px, but the ground truth has {:.2f} … {:.2f} px; "
+     "methods "
      "search what is promised unless the range is found or given.",
-     "%2 … %3 px are promised, the truth has %4 … %5 px."},
+     "%2 … %3 px are promised, the ground truth has %4 … %5 px."},
     {"config.no_range", "disp_min {:g} is not below disp_max {:g} in {}; neither is used.",
      "disp_min is not below disp_max."},
     {"config.no_number", "{}: {}, which is not a number; it is not used."},
@@ -554,6 +576,7 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
     {"brightness.fall_off", "brightness of the views evened: fall-off {:.3f}"},
     // Forms of light fields, and what their files are.
     {"format.grid", "image grid ({})"},
+    {"format.posed", "*, placed by {}"},
     {"format.archive", "archive ({})"},
     {"format.quilt", "quilt of {} tiles, a line of views from the bottom left ({})"},
     {"format.mosaic_up", "mosaic of {} views side by side, rows from the bottom ({})"},

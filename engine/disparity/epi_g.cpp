@@ -100,8 +100,8 @@ Schema<EpiGParameters> epi_g_schema() {
   using P = EpiGParameters;
   return Schema<P>()
       .part(&P::labeling, global_labeling_schema())
-      .integer("labels", &P::labels, {"Labels", "Number of equidistant disparities tested"},
-               {2, 512, true})
+      .integer("labels", &P::labels,
+               {"Disparity steps", "Number of equidistant disparities tested"}, {2, 512, true})
       .choice("direction_costs", &P::direction_costs,
               {"Combine directions",
                "sum: horizontal and vertical estimates both count, each truncated; least: the one "

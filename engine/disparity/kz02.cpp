@@ -361,8 +361,8 @@ Schema<Kz02Parameters> kz02_schema() {
   using P = Kz02Parameters;
   return Schema<P>()
       .part(&P::profile, profile_schema())
-      .integer("labels", &P::labels, {"Labels", "Number of equidistant disparities tested"},
-               {2, 512, true})
+      .integer("labels", &P::labels,
+               {"Disparity steps", "Number of equidistant disparities tested"}, {2, 512, true})
       .integer("distance", &P::distance,
                {"Side view distance",
                 "How far the views on the left, on the right, above and below are from the "
@@ -377,7 +377,7 @@ Schema<Kz02Parameters> kz02_schema() {
              "three times as much where they have the same color"},
             {0, 4})
       .integer("truncation", &P::truncation,
-               {"Truncation T", "Jumps by more labels cost no more", "labels"}, {1, 64, true})
+               {"Truncation T", "Jumps by more steps cost no more", "steps"}, {1, 64, true})
       .integer("cycles", &P::cycles,
                {"Maximum cycles", "How often every label is expanded, at most"}, {1, 100, true})
       .choice("refinement", &P::refinement,

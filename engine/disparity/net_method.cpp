@@ -244,7 +244,8 @@ Schema<NetMethodParameters> net_schema() {
 }  // namespace
 
 Names<Silhouettes> names_of(Silhouettes) {
-  return {{Silhouettes::Mode, "mode"}, {Silhouettes::Mean, "mean"}};
+  return {{Silhouettes::Mode, "mode", "more probable surface"},
+          {Silhouettes::Mean, "mean", "mean of both surfaces"}};
 }
 
 Estimate estimate_by_net(const LightField& lf, const NetMethodParameters& parameters,
@@ -258,7 +259,7 @@ Estimator net_estimator() {
       {.id = "net",
        .name = "NET",
        .summary = "A network chooses and refines disparities by the evidence of all views",
-       .reference = "Own; trained on procedural light fields alone: resources/training/README.md",
+       .reference = "Own; trained on procedural light fields alone",
        .all_views = true,
        .devices = {Device::Cpu, Device::Cuda},
        .weights = kNetWeights,

@@ -166,8 +166,8 @@ Names<Positions> names_of(Positions) {
 Schema<StereoCostParameters> stereo_matching_schema() {
   using P = StereoCostParameters;
   return Schema<P>()
-      .integer("labels", &P::labels, {"Labels", "Number of equidistant disparities tested"},
-               {2, 512, true})
+      .integer("labels", &P::labels,
+               {"Disparity steps", "Number of equidistant disparities tested"}, {2, 512, true})
       .real("epsilon", &P::epsilon,
             {"Cost cap ε",
              "Maximum cost that one view contributes, so that views in which the point is occluded "

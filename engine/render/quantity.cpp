@@ -114,7 +114,7 @@ constexpr QuantityInfo kQuantities[] = {
     {Quantity::AbsoluteError, "absolute_error", "|Error|", "absolute error",
      "Shows the magnitude of the error", "px", "ylorrd", Subject::Error, RangeRule::Fixed, kSizes},
     // Values of 0.2 (good) and 1 (bad), as `bad_pixel_map` gives them.
-    {Quantity::BadPixels, "bad_pixels", "Bad", "bad pixels",
+    {Quantity::BadPixels, "bad_pixels", "Bad pixels", "bad pixels",
      "Shows the pixels that are off by more than the threshold, 0.07 px at first", "", "rdylgn_r",
      Subject::Error, RangeRule::Fixed, kShares},
     {Quantity::TrueLabels, "labels", "Labels", "labels", "Shows the true object labels", "", "grey",

@@ -331,7 +331,7 @@
     </message>
     <message>
         <source>Reading %1</source>
-        <translation>%1 wird gelesen</translation>
+        <translation>Lesen von %1</translation>
     </message>
     <message>
         <source>Reloaded: %1</source>
@@ -339,7 +339,7 @@
     </message>
     <message>
         <source>Saving %1</source>
-        <translation>%1 wird gespeichert</translation>
+        <translation>Speichern von %1</translation>
     </message>
     <message>
         <source>Nothing is painted yet: there are no scribbles to export.</source>
@@ -351,7 +351,7 @@
     </message>
     <message>
         <source>Writing scribble images</source>
-        <translation>Bilder der Striche werden geschrieben</translation>
+        <translation>Schreiben der Bilder von Strichen</translation>
     </message>
     <message>
         <source>Compare with true labels</source>
@@ -392,6 +392,10 @@
     <message>
         <source>%1 cannot be written: choose another place for labels and scribbles.</source>
         <translation>%1 lässt sich nicht schreiben: einen anderen Ort für Labels und Striche wählen.</translation>
+    </message>
+    <message>
+        <source>Nothing is painted yet: there are no scribbles to save.</source>
+        <translation>Noch ist nichts gemalt: Es gibt keine Striche zu speichern.</translation>
     </message>
 </context>
 <context>
@@ -1102,10 +1106,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>je eine</translation>
     </message>
     <message>
-        <source>Distance of each point to the nearest point of the truth or of the other result, in units of the scene</source>
-        <translation>Abstand jedes Punkts zum nächsten Punkt der Referenz oder dessen, was mit ihm gezeigt wird, in Einheiten der Szene</translation>
-    </message>
-    <message>
         <source>Shown together with the result</source>
         <translation>Was mit dem Ergebnis gezeigt wird</translation>
     </message>
@@ -1225,6 +1225,10 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <source>Joins neighboring points to a surface, which is cut at jumps</source>
         <translation>Verbindet benachbarte Punkte zu einer Fläche, die an Sprüngen geschnitten wird</translation>
     </message>
+    <message>
+        <source>Distance of each point to the nearest point of the ground truth or of the other result, in units of the scene</source>
+        <translation>Abstand jedes Punkts zum nächsten Punkt der Referenz oder dessen, was mit ihm gezeigt wird, in Einheiten der Szene</translation>
+    </message>
 </context>
 <context>
     <name>episcope::CloudRequests</name>
@@ -1333,7 +1337,7 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     </message>
     <message>
         <source>Listing %1</source>
-        <translation>%1 wird aufgelistet</translation>
+        <translation>Auflisten von %1</translation>
     </message>
     <message>
         <source>Choose a scene in the list.</source>
@@ -1579,7 +1583,7 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     </message>
     <message>
         <source>Writing %1</source>
-        <translation>%1 wird geschrieben</translation>
+        <translation>Schreiben von %1</translation>
     </message>
     <message>
         <source>Open this folder</source>
@@ -1725,16 +1729,16 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>MSE×100 [px²]</translation>
     </message>
     <message>
-        <source>Off by more than %1 px [%]</source>
-        <translation>Um mehr als %1 px falsch [%]</translation>
-    </message>
-    <message>
         <source>No pixel of the %1 can be evaluated.</source>
         <translation>Kein Pixel wird bewertet: %1.</translation>
     </message>
     <message>
         <source>%1 · %2, %3 px</source>
         <translation>%1 · %2, %3 px</translation>
+    </message>
+    <message>
+        <source>Bad pixels: off by more than %1 px [%]</source>
+        <translation>Schlechte Pixel: um mehr als %1 px falsch [%]</translation>
     </message>
 </context>
 <context>
@@ -2134,7 +2138,7 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     </message>
     <message>
         <source>Opening %1</source>
-        <translation>%1 wird geöffnet</translation>
+        <translation>Öffnen von %1</translation>
     </message>
     <message>
         <source>Result of another light field</source>
@@ -2155,14 +2159,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>Add to “%1”</source>
         <translation>Zu „%1“ hinzufügen</translation>
-    </message>
-    <message>
-        <source>%1 can be added to the results.</source>
-        <translation>%1 kann zu den Ergebnissen hinzugefügt werden.</translation>
-    </message>
-    <message>
-        <source>Add</source>
-        <translation>Hinzufügen</translation>
     </message>
     <message>
         <source>File or folder…</source>
@@ -2392,10 +2388,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Striche wurden nicht gelesen: %1</translation>
     </message>
     <message>
-        <source>The brightness of the views differs by up to %1 % (view %2: %3); methods even it out, --equalize for pictures as well, --no-equalize for none.</source>
-        <translation>Die Helligkeit der Ansichten unterscheidet sich um bis zu %1 % (Ansicht %2: %3); Verfahren gleichen sie an, mit --equalize auch Bilder, mit --no-equalize nichts.</translation>
-    </message>
-    <message>
         <source>The brightness of the views differs by up to %1 % (view %2: %3); without --no-equalize, methods even it out.</source>
         <translation>Die Helligkeit der Ansichten unterscheidet sich um bis zu %1 % (Ansicht %2: %3); ohne --no-equalize gleichen Verfahren sie an.</translation>
     </message>
@@ -2516,14 +2508,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>durch Verdeckung: %1 Punkte gegen %2, in %3 Quadraten der Ansicht gegen %4</translation>
     </message>
     <message>
-        <source>by the truth, which is in doubt, mean grey error after warping: %1</source>
-        <translation>nach der zweifelhaften Referenz, mittlerer Graufehler nach dem Verzerren: %1</translation>
-    </message>
-    <message>
-        <source>by truth: %1</source>
-        <translation>durch die Referenz: %1</translation>
-    </message>
-    <message>
         <source>bytes less 128</source>
         <translation>Bytes minus 128</translation>
     </message>
@@ -2534,14 +2518,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>cameras stand up to %1 steps off the regular grid, which this method takes for granted; net, plane_pm and stereo methods can use their positions</source>
         <translation>Kameras stehen bis zu %1 Schritte neben dem regelmäßigen Gitter, das dieses Verfahren voraussetzt; net, plane_pm und Stereoverfahren können ihre Positionen verwenden</translation>
-    </message>
-    <message>
-        <source>checked against truth, mean grey error after warping: %1</source>
-        <translation>an der Referenz geprüft, mittlerer Graufehler nach dem Verzerren: %1</translation>
-    </message>
-    <message>
-        <source>by the truth: mean grey error of neighboring views after warping %1, as stored %2</source>
-        <translation>nach der Referenz: mittlerer Grauwertfehler benachbarter Ansichten nach dem Verschieben %1, wie gespeichert %2</translation>
     </message>
     <message>
         <source>checked by %1</source>
@@ -2708,14 +2684,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>in allen Ansichten gleich</translation>
     </message>
     <message>
-        <source>the truth fits this order of views, and negated the opposite one; nothing tells which is right</source>
-        <translation>die Referenz passt zu dieser Reihenfolge der Ansichten und negiert zur umgekehrten; nichts sagt, welche stimmt</translation>
-    </message>
-    <message>
-        <source>the truth is in doubt</source>
-        <translation>die Referenz ist zweifelhaft</translation>
-    </message>
-    <message>
         <source>this warps the views onto each other best (%1 grey levels)</source>
         <translation>so werden die Ansichten am besten aufeinander verzerrt (%1 Graustufen)</translation>
     </message>
@@ -2745,7 +2713,7 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     </message>
     <message>
         <source>%1 %2: left out.</source>
-        <translation>%1 %2: ausgelassen.</translation>
+        <translation>%1 %2 und wird ausgelassen.</translation>
     </message>
     <message>
         <source>%1 cannot be used.</source>
@@ -2964,10 +2932,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Dunkelbild %1</translation>
     </message>
     <message>
-        <source>disp_min and disp_max of %1 have the other sign than the truth, in which larger values are nearer; they were negated.</source>
-        <translation>disp_min und disp_max von %1 haben das andere Vorzeichen als die Referenz, in der größere Werte näher sind; sie wurden negiert.</translation>
-    </message>
-    <message>
         <source>disp_min and disp_max were negated.</source>
         <translation>disp_min und disp_max wurden negiert.</translation>
     </message>
@@ -3184,14 +3148,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>%1 benennt keine der Ansichten und gilt für die mittlere.</translation>
     </message>
     <message>
-        <source>%1 promises disparities of %2 … %3 px, but the truth has %4 … %5 px; methods search what is promised unless the range is found or given.</source>
-        <translation>%1 verspricht Disparitäten von %2 … %3 px, die Referenz hat aber %4 … %5 px; Methoden durchsuchen das Versprochene, wenn der Bereich nicht gefunden oder angegeben wird.</translation>
-    </message>
-    <message>
-        <source>%2 … %3 px are promised, the truth has %4 … %5 px.</source>
-        <translation>%2 … %3 px sind versprochen, die Referenz hat %4 … %5 px.</translation>
-    </message>
-    <message>
         <source>No pixel belongs to %1 in %2: the shapes are too small, outside of the picture, or covered.</source>
         <translation>Kein Pixel gehört zu %1 in %2: Die Formen sind zu klein, außerhalb des Bildes oder verdeckt.</translation>
     </message>
@@ -3376,10 +3332,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>%1 lässt %2 % der Referenz aus.</translation>
     </message>
     <message>
-        <source>%1 leaves out %2 % of the truth.</source>
-        <translation>%1 lässt %2 % der Referenz aus.</translation>
-    </message>
-    <message>
         <source>The %1 maps of %2 are taken for those of the views, row by row.</source>
         <translation>Die %1 Karten von %2 gelten als die der Ansichten, Zeile für Zeile.</translation>
     </message>
@@ -3394,10 +3346,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>Every second %1 of views seems to be reversed.</source>
         <translation>Jede zweite %1 von Ansichten scheint umgekehrt zu sein.</translation>
-    </message>
-    <message>
-        <source>Rows and columns of views seem to be exchanged in these maps: against the truth of view %1, the map of that view has MSE×100 %2, that of view %3 %4. Exchange the first two axes of the array.</source>
-        <translation>In diesen Karten scheinen Zeilen und Spalten der Ansichten vertauscht zu sein: Gegen die wahre Disparität der Ansicht %1 hat deren Karte MSE×100 %2, die der Ansicht %3 %4. Vertauschen Sie die ersten beiden Achsen des Arrays.</translation>
     </message>
     <message>
         <source>Rows and columns of views seem to be exchanged.</source>
@@ -3442,6 +3390,106 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>by the camera poses, which define right and down</source>
         <translation>durch die Posen der Kameras, die rechts und unten festlegen</translation>
+    </message>
+    <message>
+        <source>%1 promises disparities of %2 … %3 px, but the ground truth has %4 … %5 px; methods search what is promised unless the range is found or given.</source>
+        <translation>%1 verspricht Disparitäten von %2 … %3 px, die Referenz hat aber %4 … %5 px; Verfahren durchsuchen das Versprochene, wenn der Bereich nicht gefunden oder angegeben wird.</translation>
+    </message>
+    <message>
+        <source>%2 … %3 px are promised, the ground truth has %4 … %5 px.</source>
+        <translation>%2 … %3 px sind versprochen, die Referenz hat %4 … %5 px.</translation>
+    </message>
+    <message>
+        <source>*, placed by %1</source>
+        <translation>*, angeordnet nach %1</translation>
+    </message>
+    <message>
+        <source>Rows and columns of views seem to be exchanged in these maps: against the ground truth of view %1, the map of that view has MSE×100 %2, that of view %3 %4. Exchange the first two axes of the array.</source>
+        <translation>In diesen Karten scheinen Zeilen und Spalten der Ansichten vertauscht zu sein: Gegen die Referenz der Ansicht %1 hat deren Karte MSE×100 %2, die der Ansicht %3 %4. Vertauschen Sie die ersten beiden Achsen des Arrays.</translation>
+    </message>
+    <message>
+        <source>The brightness of the views differs by up to %1 % (view %2: %3). Methods even it out; --equalize evens out the pictures, too, and --no-equalize leaves all as it is.</source>
+        <translation>Die Helligkeit der Ansichten unterscheidet sich um bis zu %1 % (Ansicht %2: %3). Verfahren gleichen sie aus; --equalize gleicht auch die Bilder aus, und --no-equalize lässt alles, wie es ist.</translation>
+    </message>
+    <message>
+        <source>array of %1</source>
+        <translation>Array der Größe %1</translation>
+    </message>
+    <message>
+        <source>by the ground truth, which is in doubt, mean grey error after warping: %1</source>
+        <translation>nach der zweifelhaften Referenz, mittlerer Graufehler nach dem Verzerren: %1</translation>
+    </message>
+    <message>
+        <source>by the ground truth: %1</source>
+        <translation>durch die Referenz: %1</translation>
+    </message>
+    <message>
+        <source>by the ground truth: mean grey error of neighboring views after warping %1, as stored %2</source>
+        <translation>nach der Referenz: mittlerer Grauwertfehler benachbarter Ansichten nach dem Verschieben %1, wie gespeichert %2</translation>
+    </message>
+    <message>
+        <source>checked against the ground truth, mean grey error after warping: %1</source>
+        <translation>an der Referenz geprüft, mittlerer Graufehler nach dem Verzerren: %1</translation>
+    </message>
+    <message>
+        <source>d = dH·focalLength/Z − shift with %1: %2 … %3 px for depth %4 … %5</source>
+        <translation>d = dH·focalLength/Z − shift mit %1: %2 … %3 px für Tiefen von %4 … %5</translation>
+    </message>
+    <message>
+        <source>dH and shift as stored</source>
+        <translation>dH und shift wie gespeichert</translation>
+    </message>
+    <message>
+        <source>dH and shift times xRes</source>
+        <translation>dH und shift mal xRes</translation>
+    </message>
+    <message>
+        <source>dH times xRes, shift as stored</source>
+        <translation>dH mal xRes, shift wie gespeichert</translation>
+    </message>
+    <message>
+        <source>disp_min and disp_max of %1 have the other sign than the ground truth, in which larger values are nearer; they were negated.</source>
+        <translation>disp_min und disp_max von %1 haben das andere Vorzeichen als die Referenz, in der größere Werte näher sind; sie wurden negiert.</translation>
+    </message>
+    <message>
+        <source>empty dataset</source>
+        <translation>leerer Datensatz</translation>
+    </message>
+    <message>
+        <source>has its samples in other files, which are not read</source>
+        <translation>hat seine Werte in anderen Dateien, die nicht gelesen werden,</translation>
+    </message>
+    <message>
+        <source>holds no numbers</source>
+        <translation>enthält keine Zahlen</translation>
+    </message>
+    <message>
+        <source>holds records of several fields (compound)</source>
+        <translation>enthält Datensätze aus mehreren Feldern (compound)</translation>
+    </message>
+    <message>
+        <source>is a link to another file, which is not followed</source>
+        <translation>ist ein Verweis auf eine andere Datei, dem nicht gefolgt wird,</translation>
+    </message>
+    <message>
+        <source>is a link to nothing</source>
+        <translation>ist ein Verweis ins Leere</translation>
+    </message>
+    <message>
+        <source>is empty</source>
+        <translation>ist leer</translation>
+    </message>
+    <message>
+        <source>the ground truth fits this order of views, and negated the opposite one; nothing tells which is right</source>
+        <translation>die Referenz passt zu dieser Reihenfolge der Ansichten und negiert zur umgekehrten; nichts sagt, welche stimmt</translation>
+    </message>
+    <message>
+        <source>the ground truth is in doubt</source>
+        <translation>die Referenz ist zweifelhaft</translation>
+    </message>
+    <message>
+        <source>the map explains little of the ground truth: MSE×100 %1 against %2 of the best constant map; check its scale, units and view</source>
+        <translation>die Karte erklärt wenig von der Referenz: MSE×100 %1 gegen %2 der besten konstanten Karte; prüfen Sie Maßstab, Einheit und Ansicht</translation>
     </message>
 </context>
 <context>
@@ -4166,7 +4214,7 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     </message>
     <message>
         <source>Importing %1</source>
-        <translation>%1 wird importiert</translation>
+        <translation>Importieren von %1</translation>
     </message>
     <message>
         <source>Labels are now compared with %1</source>
@@ -4981,10 +5029,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Reiter</translation>
     </message>
     <message>
-        <source>Colors</source>
-        <translation>Farben</translation>
-    </message>
-    <message>
         <source>Open</source>
         <translation>Öffnen</translation>
     </message>
@@ -5004,6 +5048,10 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <source>Labels</source>
         <translation>Labels</translation>
     </message>
+    <message>
+        <source>Theme</source>
+        <translation>Farbschema</translation>
+    </message>
 </context>
 <context>
     <name>episcope::MeshResults</name>
@@ -5020,7 +5068,7 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <name>episcope::MeshShelf</name>
     <message>
         <source>Opening %1</source>
-        <translation>%1 wird geöffnet</translation>
+        <translation>Öffnen von %1</translation>
     </message>
 </context>
 <context>
@@ -6045,7 +6093,7 @@ s</translation>
     </message>
     <message>
         <source>Calibrating the lens</source>
-        <translation>Objektiv wird kalibriert</translation>
+        <translation>Kalibrieren des Objektivs</translation>
     </message>
     <message>
         <source>%1 of %2 photographs used</source>
@@ -6057,11 +6105,11 @@ s</translation>
     </message>
     <message>
         <source>Rectifying</source>
-        <translation>Wird rektifiziert</translation>
+        <translation>Rektifizieren</translation>
     </message>
     <message>
         <source>Making the demo</source>
-        <translation>Demo wird erzeugt</translation>
+        <translation>Erzeugen der Demo</translation>
     </message>
     <message>
         <source>These are photographs of a gantry, with points picked. Rectify them to find the pose of the mesh.</source>
@@ -6160,10 +6208,6 @@ s</translation>
         <translation>Speichern</translation>
     </message>
     <message>
-        <source>Saves the project; without one, the scribbles</source>
-        <translation>Speichert das Projekt; ohne Projekt die Striche</translation>
-    </message>
-    <message>
         <source>Saves all open light fields with their results and scribbles as a project</source>
         <translation>Speichert alle geöffneten Lichtfelder mit ihren Ergebnissen und Strichen als Projekt</translation>
     </message>
@@ -6173,7 +6217,7 @@ s</translation>
     </message>
     <message>
         <source>Opening %1</source>
-        <translation>%1 wird geöffnet</translation>
+        <translation>Öffnen von %1</translation>
     </message>
     <message>
         <source>Save project</source>
@@ -6185,7 +6229,7 @@ s</translation>
     </message>
     <message>
         <source>Saving %1</source>
-        <translation>%1 wird gespeichert</translation>
+        <translation>Speichern von %1</translation>
     </message>
     <message>
         <source>Light field not found</source>
@@ -6210,6 +6254,10 @@ s</translation>
     <message>
         <source>Save as…</source>
         <translation>Speichern unter…</translation>
+    </message>
+    <message>
+        <source>Saves the project, or asks where; scribbles alone go to a file of their own</source>
+        <translation>Speichert das Projekt oder fragt, wohin; Striche allein kommen in eine eigene Datei</translation>
     </message>
 </context>
 <context>
@@ -6453,11 +6501,11 @@ s</translation>
     </message>
     <message>
         <source>Reading %1</source>
-        <translation>%1 wird gelesen</translation>
+        <translation>Lesen von %1</translation>
     </message>
     <message>
         <source>Finding the lenses</source>
-        <translation>Linsen werden gesucht</translation>
+        <translation>Suchen der Linsen</translation>
     </message>
     <message>
         <source>Save the views</source>
@@ -6477,7 +6525,7 @@ s</translation>
     </message>
     <message>
         <source>Decoding</source>
-        <translation>Wird dekodiert</translation>
+        <translation>Dekodieren</translation>
     </message>
     <message>
         <source>%1, %2 % valid, %3 hot pixels replaced</source>
@@ -6782,7 +6830,7 @@ s</translation>
     <name>episcope::ResultOpener</name>
     <message>
         <source>Opening %1</source>
-        <translation>%1 wird geöffnet</translation>
+        <translation>Öffnen von %1</translation>
     </message>
     <message>
         <source>%1 was estimated with%2: its errors may be meaningless. Choose the same values in Conventions…</source>
@@ -6799,6 +6847,18 @@ s</translation>
     <message>
         <source>Apply</source>
         <translation>Anwenden</translation>
+    </message>
+    <message>
+        <source>%1 is the ground truth of this light field.</source>
+        <translation>%1 ist die Referenz dieses Lichtfelds.</translation>
+    </message>
+    <message>
+        <source>%1 can be added to the results.</source>
+        <translation>%1 kann zu den Ergebnissen hinzugefügt werden.</translation>
+    </message>
+    <message>
+        <source>Add</source>
+        <translation>Hinzufügen</translation>
     </message>
 </context>
 <context>
@@ -6853,7 +6913,7 @@ s</translation>
     </message>
     <message>
         <source>Writing %1</source>
-        <translation>%1 wird geschrieben</translation>
+        <translation>Schreiben von %1</translation>
     </message>
     <message>
         <source>Saved: %1.</source>
@@ -6942,7 +7002,7 @@ s</translation>
     </message>
     <message>
         <source>Opening %1</source>
-        <translation>%1 wird geöffnet</translation>
+        <translation>Öffnen von %1</translation>
     </message>
     <message>
         <source>%1: %2. “Conventions…” lets you choose.</source>
@@ -6950,7 +7010,11 @@ s</translation>
     </message>
     <message>
         <source>Caching the built-in scene</source>
-        <translation>Eingebaute Szene wird zwischengespeichert</translation>
+        <translation>Zwischenspeichern der eingebauten Szene</translation>
+    </message>
+    <message>
+        <source>The raw picture of a plenoptic camera is opened in the tab Capture, on the page “Raw picture”.</source>
+        <translation>Das Rohbild einer plenoptischen Kamera wird im Reiter Aufnahme geöffnet, auf der Seite „Rohbild“.</translation>
     </message>
 </context>
 <context>
@@ -7036,7 +7100,7 @@ s</translation>
     </message>
     <message>
         <source>Opening %1</source>
-        <translation>%1 wird geöffnet</translation>
+        <translation>Öffnen von %1</translation>
     </message>
     <message>
         <source>%1 is not “%2”: it has other samples. Nothing was changed.</source>
@@ -7382,16 +7446,8 @@ s</translation>
         <translation>Iterationen des Labelings</translation>
     </message>
     <message>
-        <source>Jumps by more labels cost no more</source>
-        <translation>Sprünge um mehr Labels kosten nicht mehr</translation>
-    </message>
-    <message>
         <source>Keep differences of brightness</source>
         <translation>Unterschiede der Helligkeit behalten</translation>
-    </message>
-    <message>
-        <source>Labels</source>
-        <translation>Labels</translation>
     </message>
     <message>
         <source>Lenslet</source>
@@ -7938,10 +7994,6 @@ s</translation>
         <translation>Labeling benachbarter Ansichten</translation>
     </message>
     <message>
-        <source>labels</source>
-        <translation>Labels</translation>
-    </message>
-    <message>
         <source>layers</source>
         <translation>Schichten</translation>
     </message>
@@ -8390,14 +8442,6 @@ s</translation>
         <translation>schwach</translation>
     </message>
     <message>
-        <source>mean</source>
-        <translation>Mittel</translation>
-    </message>
-    <message>
-        <source>mode</source>
-        <translation>Modus</translation>
-    </message>
-    <message>
         <source>comparing the brightness of views</source>
         <translation>Helligkeit der Ansichten wird verglichen</translation>
     </message>
@@ -8686,10 +8730,6 @@ s</translation>
         <translation>Eigenes Verfahren; baut auf Kolmogorov 2006 [Kol06] und Bredies u. a. 2010 [BKP10] auf</translation>
     </message>
     <message>
-        <source>Own; trained on procedural light fields alone: resources/training/README.md</source>
-        <translation>Eigenes Verfahren; nur mit prozeduralen Lichtfeldern trainiert: resources/training/README.md</translation>
-    </message>
-    <message>
         <source>exposing the sensor</source>
         <translation>Sensor wird belichtet</translation>
     </message>
@@ -8792,6 +8832,30 @@ s</translation>
     <message>
         <source>segmentation</source>
         <translation>Segmentierung</translation>
+    </message>
+    <message>
+        <source>Disparity steps</source>
+        <translation>Disparitätsstufen</translation>
+    </message>
+    <message>
+        <source>Jumps by more steps cost no more</source>
+        <translation>Sprünge um mehr Stufen kosten nicht mehr</translation>
+    </message>
+    <message>
+        <source>Own; trained on procedural light fields alone</source>
+        <translation>Eigenes Verfahren; nur mit prozeduralen Lichtfeldern trainiert</translation>
+    </message>
+    <message>
+        <source>mean of both surfaces</source>
+        <translation>Mittel beider Flächen</translation>
+    </message>
+    <message>
+        <source>more probable surface</source>
+        <translation>wahrscheinlichere Fläche</translation>
+    </message>
+    <message>
+        <source>steps</source>
+        <translation>Stufen</translation>
     </message>
 </context>
 <context>
@@ -8917,7 +8981,7 @@ s</translation>
     </message>
     <message>
         <source>Reading labels</source>
-        <translation>Labels werden gelesen</translation>
+        <translation>Lesen der Labels</translation>
     </message>
     <message>
         <source>labeling …</source>
@@ -8971,10 +9035,6 @@ s</translation>
         <translation>Zeigt die Einstellungen der Segmentierung</translation>
     </message>
     <message>
-        <source>Disparity that carries labels from view to view, and that the classifier may use as a feature</source>
-        <translation>Disparität, die Labels von Ansicht zu Ansicht überträgt und die der Klassifikator als Merkmal nutzen kann</translation>
-    </message>
-    <message>
         <source>Disparity</source>
         <translation>Disparität</translation>
     </message>
@@ -8993,6 +9053,10 @@ s</translation>
     <message>
         <source>Strokes change the labels of all views: they are corrected near what the strokes say, or segmented anew if that cannot be</source>
         <translation>Striche ändern die Labels aller Ansichten: Sie werden nahe den Strichen korrigiert oder, wenn das nicht geht, neu segmentiert</translation>
+    </message>
+    <message>
+        <source>Disparity that propagates labels from view to view, and that the classifier may use as a feature</source>
+        <translation>Disparität, die Labels von Ansicht zu Ansicht überträgt und die der Klassifikator als Merkmal nutzen kann</translation>
     </message>
 </context>
 <context>
@@ -9269,6 +9333,14 @@ s</translation>
         <source>Stretches the colors over the visible values</source>
         <translation>Spreizt die Farben über die sichtbaren Werte</translation>
     </message>
+    <message>
+        <source>Labels have no statistics</source>
+        <translation>Labels haben keine Statistik</translation>
+    </message>
+    <message>
+        <source>Wrong labels: %1 % of the visible part</source>
+        <translation>Falsche Labels: %1 % des sichtbaren Teils</translation>
+    </message>
 </context>
 <context>
     <name>episcope::StatisticsPanel</name>
@@ -9507,7 +9579,7 @@ s</translation>
     </message>
     <message>
         <source>%1, other values as in Method</source>
-        <translation>%1, andere Werte wie unter Methode</translation>
+        <translation>%1, andere Werte wie unter Verfahren</translation>
     </message>
 </context>
 <context>
@@ -10110,10 +10182,6 @@ s</translation>
         <translation>Hinten</translation>
     </message>
     <message>
-        <source>Bad</source>
-        <translation>Schlecht</translation>
-    </message>
-    <message>
         <source>Confidence</source>
         <translation>Konfidenz</translation>
     </message>
@@ -10324,6 +10392,10 @@ s</translation>
     <message>
         <source>True background</source>
         <translation>Wahrer Hintergrund</translation>
+    </message>
+    <message>
+        <source>Bad pixels</source>
+        <translation>Schlechte Pixel</translation>
     </message>
 </context>
 </TS>

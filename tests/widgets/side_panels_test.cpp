@@ -322,6 +322,19 @@ class SidePanelsTest : public QObject {
     QVERIFY(!label->isVisible());
   }
 
+  void info_showsShortWarningsWhole() {
+    InfoPanel panel;
+    panel.resize(205, 400);
+    panel.show();
+    const QString brief = "Using the inner 7×7 of 9×9 views; the outer ones are dark.";
+
+    panel.setInfo("edge", {}, {InfoWarning{"The whole of it.", brief}});
+
+    auto* label = panel.findChild<FoldedLabel*>("info.warning");
+    QTRY_VERIFY(label->width() > 100);
+    QCOMPARE(QString(label->text()).replace('\n', ' '), brief);
+  }
+
   void info_offersAnActionOnce() {
     InfoPanel panel;
     QAction conventions("Conventions…");

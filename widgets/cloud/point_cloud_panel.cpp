@@ -174,8 +174,8 @@ void CloudControls::addColoring(QGridLayout& grid) {
       {CloudColoring::Distance, tr("distance")}, {CloudColoring::Source, tr("one each")}};
   for (const auto& [value, text] : rows) coloring_->addItem(text, static_cast<int>(value));
   coloring_->setItemData(static_cast<int>(CloudColoring::Distance),
-                         tr("Distance of each point to the nearest point of the truth or of the "
-                            "other result, in units of the scene"),
+                         tr("Distance of each point to the nearest point of the ground truth or of "
+                            "the other result, in units of the scene"),
                          Qt::ToolTipRole);
   connect(coloring_, &QComboBox::currentIndexChanged, this, &CloudControls::choiceChanged);
   grid.addWidget(new QLabel(tr("Color"), this), 0, 0);

@@ -19,6 +19,8 @@ namespace episcope {
 namespace {
 
 constexpr int kColumns = 3;  // key, value, arrow
+constexpr int kWarningLines = 4;
+constexpr int kValueLines = 3;
 constexpr QSize kIconSize(14, 14);
 constexpr QSize kArrowSize(10, 10);
 
@@ -96,7 +98,7 @@ void InfoPanel::addWarning(const InfoWarning& warning, QAction* action, QGridLay
   auto* icon = new QLabel(line);
   icon->setPixmap(themed_icon(warning.is_note ? "info" : "warning").pixmap(kIconSize));
   icon->setAlignment(Qt::AlignLeft | Qt::AlignTop);
-  auto* label = new FoldedLabel(line);
+  auto* label = new FoldedLabel(line, kWarningLines);
   label->setFullText(with_units(warning.brief.isEmpty() ? warning.text : warning.brief));
   label->setObjectName("info.warning");
   if (!warning.is_note) label->setPalette(theme::text_palette(theme::warning_text(palette())));
@@ -147,7 +149,7 @@ void InfoPanel::addRow(const InfoRow& row, QGridLayout* grid) {
   key->setPalette(theme::text_palette(theme::muted_text(palette())));
   // With an arrow the line stays one: the arrow opens it.
   const bool has_more = !row.tip.isEmpty() || !row.check.isEmpty() || row.action;
-  QLabel* value = make_value(row.value, has_more ? 1 : 2, body);
+  QLabel* value = make_value(row.value, has_more ? 1 : kValueLines, body);
   if (!row.id.isEmpty()) value->setObjectName("info." + row.id);
   const int line = grid->rowCount();
   grid->addWidget(key, line, 0);

@@ -82,6 +82,8 @@ MetricTable::MetricTable(QWidget* parent)
   auto* menu = new QMenu(save_);
   menu->addAction(tr("CSV…"), this, [this] { emit saveRequested("csv", toCsv()); });
   menu->addAction(tr("LaTeX…"), this, [this] { emit saveRequested("tex", toLatex()); });
+  QMenu* columns = menu->addMenu(tr("Columns"));
+  connect(columns, &QMenu::aboutToShow, this, [this, columns] { addColumnsTo(*columns); });
   // No menu of the button's own, whose arrow would stand below the text.
   connect(save_, &QToolButton::clicked, menu,
           [this, menu] { menu->popup(save_->mapToGlobal(QPoint(0, save_->height()))); });
@@ -275,6 +277,7 @@ void MetricTable::showMenu(const QPoint& position) {
 
 void MetricTable::addColumnsTo(QMenu& menu) {
   menu.setObjectName("metrics.columns");
+  menu.clear();
   for (std::size_t i = 1; i < columns_.size(); ++i) {  // names of results stay
     const MetricColumn& column = columns_[i];
     QAction* action = menu.addAction(QString(column.label).replace('\n', ' '));

@@ -41,7 +41,11 @@ OverlayBar::OverlayBar(QWidget* parent)
   setObjectName("overlayBar");
   quantity_->setAccessibleName(tr("Map over the view"));
   quantity_->setToolTip(tr("Map over the view (M: next)"));
-  quantity_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
+  // Wide enough for each, so that nothing moves.
+  for (const render::QuantityInfo& each : render::quantities()) {
+    quantity_->addItem(quantity_button(each.quantity));
+  }
+  quantity_->setFixedWidth(quantity_->sizeHint().width());
   quantity_->setMaxVisibleItems(kMostQuantities);
   opacity_->setRange(0, 100);
   opacity_->setMinimumWidth(30);

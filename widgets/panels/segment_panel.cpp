@@ -17,6 +17,7 @@
 namespace episcope {
 namespace {
 
+constexpr int kNoteLines = 2;
 constexpr int kSettingsHeight = 170;
 constexpr int kLeastSettingsHeight = 130;
 
@@ -38,6 +39,9 @@ SegmentPanel::SegmentPanel(QWidget* parent)
   chip_->setTextFormat(Qt::PlainText);
   note_->setTextFormat(Qt::PlainText);
   note_->setWordWrap(true);
+  note_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+  note_->setMinimumHeight(kNoteLines *
+                          fontMetrics().lineSpacing());  // what is above stays in place
   fold_->setText(tr("Settings"));
   fold_->setToolTip(tr("Shows the settings of the segmentation"));
   fold_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
@@ -62,7 +66,7 @@ SegmentPanel::SegmentPanel(QWidget* parent)
 
 QWidget* SegmentPanel::makeSettings() {
   source_->setToolTip(
-      tr("Disparity that carries labels from view to view, and that the classifier may use as a "
+      tr("Disparity that propagates labels from view to view, and that the classifier may use as a "
          "feature"));
   source_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
   all_views_->setToolTip(

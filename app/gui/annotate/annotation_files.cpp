@@ -115,6 +115,16 @@ QString AnnotationFiles::suggestion() const {
   return name + "_labels.h5";
 }
 
+void AnnotationFiles::save() {
+  if (!document_.document()) return;
+  if (document_.hasUnsavedChanges() || hasStrokes()) return saveAndThen(nullptr);
+  bench_.messages.hint(tr("Nothing is painted yet: there are no scribbles to save."));
+}
+
+bool AnnotationFiles::hasStrokes() const {
+  return !document_.document()->scribbles().painted_views().empty();
+}
+
 void AnnotationFiles::saveAndThen(std::function<void()> then) {
   if (!document_.document()) return;
   const QString path = place();
@@ -221,7 +231,7 @@ void AnnotationFiles::write(const QString& path, std::function<void()> then) {
 
 void AnnotationFiles::exportDialog() {
   if (!document_.document()) return;
-  if (document_.document()->scribbles().painted_views().empty()) {
+  if (!hasStrokes()) {
     bench_.messages.hint(tr("Nothing is painted yet: there are no scribbles to export."));
     return;
   }

@@ -37,7 +37,8 @@ class AnnotationFiles : public QObject {
   /// Target of `save`: the last file written, else a file beside the light field. Empty if neither
   /// is known and writable; `save` asks then.
   [[nodiscard]] QString place() const;
-  void save() { saveAndThen(nullptr); }
+  /// Writes nothing if nothing was painted or changed.
+  void save();
   void saveAsDialog() { askForPlace(nullptr); }
   void saveAs(const QString& path) { saveTo(path, nullptr); }
   /// Writes a picture of each painted view into a folder.
@@ -55,6 +56,7 @@ class AnnotationFiles : public QObject {
   void addCommand(const QString& id, const QString& text, const QString& tip, const QString& icon,
                   const QList<QKeySequence>& keys, void (AnnotationFiles::*run)());
   void showState();
+  [[nodiscard]] bool hasStrokes() const;
   /// Asks first if another program has written the file since.
   void saveTo(const QString& path, std::function<void()> then);
   void write(const QString& path, std::function<void()> then);

@@ -237,12 +237,13 @@ void Photographs::saveCamera(const QString& path) {
 void Photographs::rectify(const QString& path) {
   if (!canRectify() || !is_new_light_field(path, bench_.messages)) return;
   const RectifyTask task{*bench_.session.scene(), documents_.now().work(), path_of(path)};
-  bench_.jobs.start<CaptureWork>(
+  const quint64 job = bench_.jobs.start<CaptureWork>(
       Lane::Capture, job_title(tr("Rectifying"), bench_.session),
       [task](const Progress& progress) { return rectify_to_file(task, progress).work; },
       [this, path](const CaptureWork& work) {
         bench_.opener.open(path, [this, work] { documents_.begin(work); });
       });
+  bench_.jobs.setScene(job, bench_.session.generation());
 }
 
 void Photographs::makeDemo(const QString& folder, const capture::DemoOptions& options) {

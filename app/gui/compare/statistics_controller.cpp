@@ -117,11 +117,17 @@ void StatisticsController::begin() {
     job_.drop();
     statistics_.reset();
     wants_range_ = false;
-    panel_->clear(tr("No map is shown"));
+    panel_->clear(areLabelsDrawn() ? tr("Labels have no statistics") : tr("No map is shown"));
     return;
   }
   if (!is_same) statistics_.reset();
   count(region);
+}
+
+bool StatisticsController::areLabelsDrawn() const {
+  const bool are_labels =
+      choice_.quantity == Quantity::TrueLabels || choice_.quantity == Quantity::Segmentation;
+  return are_labels && !overlay_.picture().isNull();
 }
 
 void StatisticsController::count(const PixelRect& region) {
@@ -145,6 +151,12 @@ void StatisticsController::count(const PixelRect& region) {
 
 void StatisticsController::show(const Counted& counted) {
   statistics_ = counted.statistics;
+  if (choice_.quantity == Quantity::WrongLabels) {
+    // The mean of good and bad ones.
+    const double share = (statistics_->mean - kGoodPixel) / (kBadPixel - kGoodPixel);
+    return panel_->clear(
+        tr("Wrong labels: %1 % of the visible part").arg(number_text(100 * share, 2)));
+  }
   MapChoice measured = choice_;
   measured.quantity = measured_by(choice_.quantity);
   panel_->setSummary({overlay_.describe(measured), quantity_unit(measured.quantity),
@@ -161,7 +173,9 @@ void StatisticsController::useAutomaticRange() {
 
 void StatisticsController::applyAutomaticRange() {
   wants_range_ = false;
-  if (measured_by(choice_.quantity) != choice_.quantity) return;  // its colors have no range
+  const bool has_range = measured_by(choice_.quantity) == choice_.quantity &&
+                         choice_.quantity != Quantity::WrongLabels;
+  if (!has_range) return;
   const bool is_signed = render::info_of(choice_.quantity).is_signed();
   const Interval range = is_signed ? balanced(statistics_->robust) : statistics_->robust;
   if (statistics_->count > 0 && range.length() > 0) overlay_.setRange(range);
@@ -278,7 +292,9 @@ void ErrorPlotController::start(const std::vector<Judged>& results) {
        part = region_.name()](const std::vector<ErrorProfile>& profiles) {
         const PlotAxis x{tr("True disparity [px]")};
         Plot squares{x, {tr("MSE×100 [px²]")}, {}};
-        Plot bad{x, {tr("Off by more than %1 px [%]").arg(number_text(threshold_px, 2))}, {}};
+        Plot bad{x,
+                 {tr("Bad pixels: off by more than %1 px [%]").arg(number_text(threshold_px, 2))},
+                 {}};
         std::size_t pixels = 0;
         for (const ErrorBin& bin : profiles.front()) pixels += bin.pixels;
         if (pixels == 0) return panel_->clear(tr("No pixel of the %1 can be evaluated.").arg(part));

@@ -40,6 +40,7 @@ class StatisticsController : public QObject {
   };
   void addCommands();
   void begin();
+  [[nodiscard]] bool areLabelsDrawn() const;
   void count(const PixelRect& region);
   void show(const Counted& counted);
   void applyAutomaticRange();

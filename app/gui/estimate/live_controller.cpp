@@ -182,9 +182,8 @@ QString LiveController::status() const {
     return begun + tr("%1 %").arg(percent_done(estimator_.fraction()));
   }
   if (!estimator_.full_seconds() || !estimator_.map()) return tr("Live");
-  const EstimatePtr& estimate = estimator_.map()->estimate;  // its time, as in the list
-  const QString done = begun + tr("full %1").arg(time_text(estimate->seconds));
-  const bool has_view = estimate->contains(bench_.session.view());
+  const QString done = begun + tr("full %1").arg(time_text(*estimator_.full_seconds()));
+  const bool has_view = estimator_.map()->estimate->contains(bench_.session.view());
   return has_view ? done : tr("Live: this method has no map of this view");
 }
 
@@ -199,6 +198,7 @@ EstimateRequest request_of(const RunRequest& request) {
 MethodRuns::MethodRuns(const Workbench& bench) : bench_(bench) {
   bench.session.on_changed([this](Parts parts) {
     if (parts.has(Part::Scenes)) cancelClosed();
+    if (parts.has_any(Part::Scene | Part::Estimates)) endOffer();
   });
   connect(&bench.jobs, &Jobs::removed, this, [this](quint64 job) {
     if (runs_.erase(job) > 0) emit changed();
@@ -245,8 +245,13 @@ void MethodRuns::offerToShow(int estimate) {
                        entry->estimate->contains(bench_.session.view());
   if (is_seen && !entry->is_new) return;
   bench_.session.mark_new(estimate);
-  bench_.messages.offer(tr("New result: %1").arg(QString::fromStdString(entry->name)), tr("Show"),
-                        [this, estimate] { show(estimate); });
+  offered_ = {estimate, tr("New result: %1").arg(QString::fromStdString(entry->name))};
+  bench_.messages.offer(offered_.second, tr("Show"), [this, estimate] { show(estimate); });
+}
+
+void MethodRuns::endOffer() {
+  const EstimateEntry* entry = bench_.session.find_estimate(offered_.first);
+  if (!entry || !entry->is_new) bench_.messages.retract(std::exchange(offered_, {}).second);
 }
 
 void MethodRuns::show(int estimate) {

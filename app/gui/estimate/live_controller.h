@@ -17,6 +17,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace episcope {
@@ -93,9 +94,12 @@ class MethodRuns : public QObject {
   [[nodiscard]] bool isComparing(std::uint64_t scene) const;
   /// Tells of a result that came while others were compared, or something else was looked at.
   void offerToShow(int estimate);
+  /// Takes the offer back once its result was seen or removed.
+  void endOffer();
 
   Workbench bench_;
   std::map<quint64, std::uint64_t> runs_;  // jobs and the scenes they run on
+  std::pair<int, QString> offered_{};      // a new result, and the sentence that offers it
 };
 
 /// Gives a worker an open scene, loading it if necessary. Throws what `load_scene` throws.

@@ -37,10 +37,10 @@ bool has_points(const Sweep& sweep) {
   return std::ranges::any_of(sweep.scenes, [](const auto& each) { return !each.points.empty(); });
 }
 
-std::span<const Measured> measures_of(const Sweep& sweep) {
+std::span<const Measured> measures_of(const Sweep& sweep, bool expects_truth = true) {
   const std::span all(kMeasures);
   const bool is_judged = std::ranges::any_of(sweep.scenes, has_truth);
-  return is_judged || !has_points(sweep) ? all : all.subspan(kOfTruth);
+  return is_judged || (expects_truth && !has_points(sweep)) ? all : all.subspan(kOfTruth);
 }
 
 // NaN where there is none, which is not drawn.
@@ -103,9 +103,10 @@ QString axis_text(const ParameterDescription& description) {
                                   : QString("%1 [%2]").arg(label, schema_text(description.unit));
 }
 
-QStringList measure_names(const Sweep& sweep) {
+QStringList measure_names(const Sweep& sweep, bool expects_truth) {
   QStringList names;
-  for (const Measured& each : measures_of(sweep)) names << SweepPlotText::tr(each.name);
+  for (const Measured& each : measures_of(sweep, expects_truth))
+    names << SweepPlotText::tr(each.name);
   return names;
 }
 

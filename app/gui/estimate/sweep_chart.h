@@ -27,8 +27,9 @@ struct SweepChart {
 /// Axis title of a parameter: "smoothing λ [px]".
 [[nodiscard]] QString axis_text(const ParameterDescription& description);
 
-/// Names of plottable measures, with units; without ground truth, none that need it.
-[[nodiscard]] QStringList measure_names(const Sweep& sweep);
+/// Names of plottable measures, with units; without ground truth, none that need it. Before the
+/// first point, `expects_truth` tells whether there is some.
+[[nodiscard]] QStringList measure_names(const Sweep& sweep, bool expects_truth);
 /// Choices of light fields: all together first, then each. Empty if there is only one.
 [[nodiscard]] QStringList scene_choices(const Sweep& sweep);
 /// Plots measure number `measure` over the first parameter, for choice number `scene`. The choice

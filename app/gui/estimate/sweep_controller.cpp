@@ -332,7 +332,10 @@ void SweepController::end(quint64 id) {
 void SweepController::showPlots() {
   const Sweep nothing;
   const Sweep& sweep = current() ? *current() : nothing;
-  panel_->setMeasures(measure_names(sweep), 0, 1);
+  const auto& scene = bench_.session.scene();
+  panel_->setMeasures(
+      measure_names(sweep, !scene || scene->truth->has_disparity() || scene->truth->has_layers()),
+      0, 1);
   const bool is_running = runs_->isRunning() && runs_->sweep() == current_;
   const bool has_points = std::ranges::any_of(
       sweep.scenes, [](const SweepScene& each) { return !each.points.empty(); });

@@ -345,14 +345,7 @@ void FileController::openOwner(const QString& path, const ResultOwner& owner,
       scenes, [&](const OpenScene* each) { return is_same_input(each->input, owner.input); });
   const std::string input = known == scenes.end() ? owner.input : (*known)->input;
   const auto add = [this, path, owner] {
-    if (owner.is_stated) {
-      bench_.results.open(path);
-    } else {
-      bench_.messages.offer(tr("%1 can be added to the results.").arg(QFileInfo(path).fileName()),
-                            tr("Add"), [this, path] {
-                              if (bench_.session.scene()) bench_.results.open(path);
-                            });
-    }
+    owner.is_stated ? bench_.results.open(path) : bench_.results.offer(path);
   };
   openFirst(QString::fromStdString(input), rest, failures, add);
 }
@@ -365,7 +358,9 @@ void FileController::openAll(QStringList paths, const QStringList& failures) {
   std::stable_partition(paths.begin(), paths.end(),
                         [](const QString& path) { return names_project(path_of(path)); });
   if (paths.isEmpty()) {
-    if (!failures.isEmpty()) bench_.messages.fail(failures.join('\n'));
+    // One alone is told in place of the view.
+    const bool is_told = failures.size() == 1 && !bench_.session.scene();
+    if (!failures.isEmpty() && !is_told) bench_.messages.fail(failures.join('\n'));
     return;
   }
   const QString path = paths.takeFirst();

@@ -63,21 +63,14 @@ ProjectController::ProjectController(const Workbench& bench, Autosave& autosave)
 
 void ProjectController::addCommands() {
   const auto has_scene = [this] { return !bench_.session.scenes().empty(); };
-  // Scribbles go to their own file, as other programs read it, until there is a project.
   bench_.commands.add({.menu = Menu::Project, .enabled = has_scene},
                       {{.id = "file.save",
                         .text = tr("Save"),
-                        .tip = tr("Saves the project; without one, the scribbles"),
+                        .tip = tr("Saves the project, or asks where; scribbles alone go to a file "
+                                  "of their own"),
                         .icon = "save",
                         .keys = {QKeySequence::Save},
-                        .run =
-                            [this] {
-                              if (file().isEmpty()) {
-                                bench_.commands.trigger("file.save_scribbles");
-                              } else {
-                                save();
-                              }
-                            }},
+                        .run = [this] { saveWhatIsNew(); }},
                        {.id = "file.save_project",
                         .text = tr("Save as…"),
                         .tip = tr("Saves all open light fields with their results and scribbles "
@@ -85,6 +78,20 @@ void ProjectController::addCommands() {
                         .icon = "save",
                         .keys = {tr("Ctrl+Alt+S")},
                         .run = [this] { saveAs(); }}});
+}
+
+// Until there is a project, scribbles alone go to a file that other programs read.
+void ProjectController::saveWhatIsNew() {
+  const bool has_results = std::ranges::any_of(
+      bench_.session.scenes(),
+      [this](const OpenScene* each) { return has_unsaved_results(bench_, *each); });
+  const bool has_scribbles_alone =
+      file().isEmpty() && !has_results && bench_.document.hasUnsavedChanges();
+  if (has_scribbles_alone) {
+    bench_.commands.trigger("file.save_scribbles");
+  } else {
+    save();
+  }
 }
 
 QString ProjectController::file() const {

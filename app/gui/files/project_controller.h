@@ -46,6 +46,7 @@ class ProjectController : public QObject {
 
  private:
   void addCommands();
+  void saveWhatIsNew();
   void read(const QString& path, const std::function<void()>& then = nullptr);
   void write(const QString& path, std::function<void()> then);
   void noteSaved(const QString& path, const Project& written);

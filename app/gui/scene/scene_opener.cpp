@@ -10,6 +10,7 @@
 #include "app/session/user_folders.h"
 #include "engine/core/error.h"
 #include "engine/core/finding.h"
+#include "engine/io/base/files.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/controls/labels.h"
 #include "widgets/controls/layout.h"
@@ -315,6 +316,7 @@ void SceneOpener::leave(const Load& load, const std::function<void()>& go_on) {
 
 void SceneOpener::start(const Load& load) {
   jobs_.cancelLane(Lane::Open);
+  forgetFailure();
   const quint64 number = ++number_;
   loading_name_ = short_name(load.input);
   last_failure_.clear();
@@ -388,7 +390,6 @@ void SceneOpener::forgetFailure() {
 }
 
 void SceneOpener::finish(const Load& load, const ScenePtr& scene) {
-  forgetFailure();
   if (load.is_added) {
     session_.add(scene, load.input.toStdString());
   } else {
@@ -400,14 +401,31 @@ void SceneOpener::finish(const Load& load, const ScenePtr& scene) {
 void SceneOpener::end(quint64 number, const Load& load) {
   if (number != number_) return;
   loading_job_ = 0;
-  failed_input_ = last_failure_.isEmpty() ? QString() : load.input;
-  if (!last_failure_.isEmpty()) told_failure_ = last_failure_;
+  const bool has_failed = !last_failure_.isEmpty();
+  failed_input_ = has_failed ? load.input : QString();
   viewer_area_.endPreview();
   emit changed();
-  if (!session_.scene() && last_failure_.isEmpty()) viewer_area_.canvas()->showEmpty();
-  if (!session_.scene() && !last_failure_.isEmpty())
-    viewer_area_.canvas()->showError(last_failure_);
-  if (load.otherwise && !last_failure_.isEmpty() && !has_asked_) load.otherwise(told_failure_);
+  if (has_failed) {
+    tellFailure(load);
+  } else if (!session_.scene()) {
+    viewer_area_.canvas()->showEmpty();
+  }
+}
+
+// In one place: where the view would be, else over it.
+void SceneOpener::tellFailure(const Load& load) {
+  told_failure_ = last_failure_;
+  if (io::is_image_name(load.input.toStdString())) {
+    told_failure_ += ' ' + tr("The raw picture of a plenoptic camera is opened in the tab Capture, "
+                              "on the page “Raw picture”.");
+  }
+  if (!session_.scene()) {
+    emit failureIsOver(last_failure_);
+    viewer_area_.canvas()->showError(told_failure_);
+  } else if (!has_asked_) {
+    emit failed(told_failure_);
+  }
+  if (load.otherwise && !has_asked_) load.otherwise(told_failure_);
 }
 
 void SceneOpener::keepBuiltin(const QString& input) {

@@ -70,7 +70,9 @@ class SceneOpener : public QObject {
   void isCollection(const QString& folder);
   /// The requested path is a project file. `then` (may be null) is to be called once it is open.
   void isProject(const QString& path, const std::function<void()>& then);
-  /// Another input is open, so that this failure no longer matters.
+  /// An input could not be opened; `sentence` is for the user.
+  void failed(const QString& sentence);
+  /// This failure no longer matters, as another input is being opened, or is shown elsewhere.
   void failureIsOver(const QString& sentence);
 
  private:
@@ -92,6 +94,7 @@ class SceneOpener : public QObject {
   void showLoading(quint64 job, double fraction);
   void finish(const Load& load, const std::shared_ptr<const Scene>& scene);
   void end(quint64 number, const Load& load);
+  void tellFailure(const Load& load);
   void ask(const Load& load, const io::Undecided& question);
   void keepBuiltin(const QString& input);
   void forgetFailure();
@@ -107,7 +110,7 @@ class SceneOpener : public QObject {
   QString loading_name_;
   bool has_asked_ = false;  // whether it waits for an answer
   QString last_failure_;
-  QString told_failure_;  // of the last load that failed, until another succeeds
+  QString told_failure_;  // of the last load that failed, until another begins
   QString failed_input_;  // asked for last, and not to be read
 };
 

@@ -8,6 +8,7 @@
 #include "app/session/run_estimator.h"
 #include "app/session/scene_summary.h"
 #include "engine/core/error.h"
+#include "widgets/controls/text.h"
 
 #include <QFileInfo>
 
@@ -193,6 +194,7 @@ void SceneSwitcher::keepBudget() {
 namespace {
 
 struct ReadEstimate : FinishedEstimate {
+  bool is_truth = false;
   bool is_of_others = false;
   std::string differing_options;
   std::optional<io::BetterReading> better;
@@ -211,14 +213,15 @@ ReadEstimate read_estimate(const Scene& scene, const std::string& path,
   const bool is_of_others = is_of_other_samples(*estimate, light_field);
   const bool is_moved = estimate->reading.focus_px() != light_field.info().reading.focus_px();
   bring_to_focus(*estimate, light_field, progress);
+  const bool is_truth = reading == io::MapReading() && is_ground_truth(*estimate, scene);
   const Interval range = display_range(*estimate);
   std::string options = differing_options(*estimate, light_field);
   std::optional<io::BetterReading> better;
   if (reading == io::MapReading()) better = find_better_reading(*estimate, scene);
   std::string poor_fit = better ? std::string() : poor_fit_text(*estimate, scene);
-  return {{std::move(estimate), range}, is_of_others && !is_moved,
-          std::move(options),           better,
-          std::move(poor_fit),          stamp};
+  return {
+      {std::move(estimate), range}, is_truth, is_of_others && !is_moved, std::move(options), better,
+      std::move(poor_fit),          stamp};
 }
 
 }  // namespace
@@ -241,11 +244,16 @@ void ResultOpener::openAs(const Request& request) {
       [scene = session_.scene(), path = request.path.toStdString(), reading = request.reading](
           const Progress& progress) { return read_estimate(*scene, path, reading, progress); },
       [this, generation = session_.generation(), name, request](const ReadEstimate& read) {
+        if (read.is_truth) {
+          return messages_.hint(tr("%1 is the ground truth of this light field.").arg(name));
+        }
+        if (request.is_offered) return offer(request);
         const std::filesystem::path path = request.path.toStdString();
         files_.note(path, read.stamp);
         session_.remove_estimate(request.misread);
         const int id = session_.add_estimate(read.estimate, read.display_range, generation);
         session_.show_opened_estimate(id);
+        session_.mark_saved(id);
         if (request.is_foreign || read.is_of_others) session_.set_foreign_file(id, path);
         if (!read.differing_options.empty()) {
           messages_.warn(tr("%1 was estimated with%2: its errors may be meaningless. Choose the "
@@ -259,12 +267,20 @@ void ResultOpener::openAs(const Request& request) {
                  "its errors may be meaningless.")
                   .arg(name));
         } else if (!read.poor_fit.empty()) {
-          messages_.warn(QString("%1: %2.").arg(name, QString::fromStdString(read.poor_fit)));
+          messages_.warn(QString("%1: %2.").arg(name, finding_words(read.poor_fit)));
         } else {
           return;
         }
         messages_.endWithLightField();
       });
+}
+
+void ResultOpener::offer(Request request) {
+  request.is_offered = false;
+  messages_.offer(tr("%1 can be added to the results.").arg(QFileInfo(request.path).fileName()),
+                  tr("Add"), [this, request] {
+                    if (session_.scene()) openAs(request);
+                  });
 }
 
 void ResultOpener::offerReading(const Request& request, const io::BetterReading& better,

@@ -91,6 +91,9 @@ class ResultOpener : public QObject {
   /// Adds a result that is known to belong to another light field, and marks it. Precondition: a
   /// light field is open.
   void openForeign(const QString& path) { openAs({.path = path, .is_foreign = true}); }
+  /// Asks whether to add a map that was found beside the light field, unless it is its ground
+  /// truth. Precondition: a light field is open.
+  void offer(const QString& path) { openAs({.path = path, .is_offered = true}); }
   /// Files that results were read from or written to.
   [[nodiscard]] KnownFiles& files() { return files_; }
 
@@ -100,8 +103,10 @@ class ResultOpener : public QObject {
     io::MapReading reading{};
     int misread = 0;  ///< The result of the same file that this reading replaces; 0 = none.
     bool is_foreign = false;
+    bool is_offered = false;  ///< To be asked about, once it was read.
   };
   void openAs(const Request& request);
+  void offer(Request request);
   /// Offers to read a file so that was read into the result `misread`.
   void offerReading(const Request& request, const io::BetterReading& better, int misread);
 

@@ -297,7 +297,7 @@ constexpr MenuInfo kMenus[] = {
      section::kMore},
     {Menu::Tabs, QT_TRANSLATE_NOOP("episcope::Menu", "Tabs"), true, Menu::View, section::kMore},
     {Menu::Panes, QT_TRANSLATE_NOOP("episcope::Menu", "Panes"), true, Menu::View, section::kMore},
-    {Menu::Colors, QT_TRANSLATE_NOOP("episcope::Menu", "Colors"), true, Menu::View, section::kMore},
+    {Menu::Colors, QT_TRANSLATE_NOOP("episcope::Menu", "Theme"), true, Menu::View, section::kMore},
     {Menu::Language, QT_TRANSLATE_NOOP("episcope::Menu", "Language"), true, Menu::View,
      section::kMore},
     {Menu::Estimate, QT_TRANSLATE_NOOP("episcope::Menu", "Estimate")},

@@ -63,6 +63,8 @@ quint64 Jobs::adopt(const QString& title, std::function<void()> cancel) {
 }
 
 quint64 Jobs::add(const QString& title, std::optional<Lane> lane) {
+  const bool reads = lane == Lane::Open || lane == Lane::Load;
+  if (reads) emit failureIsOver(std::exchange(failure_of_reading_, {}));
   jobs_[++last_id_] = {.lane = lane, .title = title};
   emit added(last_id_, title);
   return last_id_;
@@ -91,7 +93,7 @@ void Jobs::tellProgress() {
 }
 
 void Jobs::finish(quint64 id, const std::exception_ptr& failure) {
-  const QString title = jobs_[id].title;
+  const auto [lane, title] = std::pair(jobs_[id].lane, jobs_[id].title);
   jobs_.erase(id);
   emit removed(id);
   if (!failure) return;
@@ -99,6 +101,7 @@ void Jobs::finish(quint64 id, const std::exception_ptr& failure) {
   const QString named = with_conventions(reason);
   QString sentence = tr("%1 failed: %2").arg(title, named);
   if (named != reason) sentence = tr("%1. Set this in “Conventions…”.").arg(sentence);
+  if (lane == Lane::Open || lane == Lane::Load) failure_of_reading_ = sentence;
   emit failed(sentence, id);
 }
 
@@ -215,6 +218,7 @@ void show_jobs(Jobs& jobs, JobCancel& cancel, Frame& frame, Messages& messages) 
                    [&cancel](quint64 id) { cancel.cancel({id}); });
   QObject::connect(panel, &JobPanel::finishRequested, &jobs, &Jobs::finishEarly);
   QObject::connect(&jobs, &Jobs::failed, &messages, &Messages::fail);
+  QObject::connect(&jobs, &Jobs::failureIsOver, &messages, &Messages::retract);
 }
 
 QString with_conventions(QString sentence) {
@@ -227,10 +231,12 @@ QString with_conventions(QString sentence) {
     const auto known =
         std::ranges::find(options, match.captured(1).toStdString(), &ParameterDescription::key);
     if (known != options.end()) {
+      const bool is_quoted = match.captured(2).startsWith('\'');
       const std::string value = match.captured(2).remove('\'').toStdString();
       const bool is_choice = std::ranges::count(known->choices, value) > 0;
       const bool is_word = !value.empty() && std::islower(static_cast<unsigned char>(value[0]));
-      const bool has_value = !value.empty() && (is_choice || value == "all" || !is_word);
+      const bool has_value =
+          !value.empty() && (is_choice || is_quoted || value == "all" || !is_word);
       const QString label = schema_text(known->label);
       const QString shown = is_choice ? value_text(*known, value) : QString::fromStdString(value);
       const QString name =

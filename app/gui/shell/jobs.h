@@ -115,6 +115,8 @@ class Jobs : public QObject {
   void removed(quint64 id);
   /// A job failed; `sentence` is for the user.
   void failed(const QString& sentence, quint64 id);
+  /// Something else is being read, so that this failure to read no longer matters.
+  void failureIsOver(const QString& sentence);
 
  private:
   struct Job {
@@ -138,7 +140,8 @@ class Jobs : public QObject {
 
   std::map<quint64, Job> jobs_;
   quint64 last_id_ = 0;
-  QTimer progress_;  // Runs for a while after progress was told.
+  QString failure_of_reading_;  // the last
+  QTimer progress_;             // Runs for a while after progress was told.
   std::array<std::unique_ptr<JobRunner>, static_cast<std::size_t>(Lane::Count)> runners_;
 };
 

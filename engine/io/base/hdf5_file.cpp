@@ -2,6 +2,7 @@
 #include "engine/io/base/hdf5_file.h"
 
 #include "engine/core/error.h"
+#include "engine/core/finding.h"
 #include "engine/core/text.h"
 #include "engine/io/base/files.h"
 #include "engine/io/base/hdf5_chunks.h"
@@ -138,18 +139,20 @@ std::string Hdf5Input::fault_of(const std::string& name) const {
   const Hdf5Lock session;
   H5L_info_t link;
   if (H5Lget_info(root_, name.c_str(), &link, H5P_DEFAULT) < 0) return {};
-  if (link.type == H5L_TYPE_EXTERNAL) return "is a link to another file, which is not followed";
-  if (H5Oexists_by_name(root_, name.c_str(), H5P_DEFAULT) <= 0) return "is a link to nothing";
+  if (link.type == H5L_TYPE_EXTERNAL) return std::string(finding_text("dataset.elsewhere"));
+  if (H5Oexists_by_name(root_, name.c_str(), H5P_DEFAULT) <= 0) {
+    return std::string(finding_text("dataset.nothing"));
+  }
   if (is_group(root_, name)) return {};
   const Hdf5Handle dataset(H5Dopen2(root_, name.c_str(), H5P_DEFAULT), H5Dclose);
   if (!dataset.ok()) return {};  // which reading it tells
-  if (!holds_own_samples(dataset)) return "has its samples in other files, which are not read";
+  if (!holds_own_samples(dataset)) return std::string(finding_text("dataset.samples_elsewhere"));
   const Hdf5Handle space(H5Dget_space(dataset), H5Sclose);
-  if (H5Sget_simple_extent_npoints(space) == 0) return "is empty";
+  if (H5Sget_simple_extent_npoints(space) == 0) return std::string(finding_text("dataset.empty"));
   if (describe_dataset(dataset, name).type != Hdf5Type::Other) return {};
   const Hdf5Handle type(H5Dget_type(dataset), H5Tclose);
-  return H5Tget_class(type) == H5T_COMPOUND ? "holds records of several fields (compound)"
-                                            : "holds no numbers";
+  return std::string(H5Tget_class(type) == H5T_COMPOUND ? finding_text("dataset.records")
+                                                        : finding_text("dataset.no_numbers"));
 }
 
 bool Hdf5Input::has_numbers(const std::string& name) const {

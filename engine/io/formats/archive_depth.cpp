@@ -141,9 +141,10 @@ std::vector<UnitReading> readings(const DepthFacts& facts) {
     return camera;
   };
   const double width = facts.width;
-  std::vector<UnitReading> all{{scaled(1, 1), "dH and shift as stored", true, {}},
-                               {scaled(width, width), "dH and shift times xRes", false, {}},
-                               {scaled(width, 1), "dH times xRes, shift as stored", false, {}}};
+  std::vector<UnitReading> all{
+      {scaled(1, 1), std::string(finding_text("units.as_stored")), true, {}},
+      {scaled(width, width), std::string(finding_text("units.width")), false, {}},
+      {scaled(width, 1), std::string(finding_text("units.width_of_dh")), false, {}}};
   for (UnitReading& one : all) {
     one.disparity = {one.camera.disparity_from_depth(facts.depth.max),
                      one.camera.disparity_from_depth(facts.depth.min)};
@@ -185,9 +186,9 @@ UnitsFinding find_units(const DepthFacts& facts, Units choice,
   const UnitReading& taken = best_by_warping(all, warp_error);
 
   UnitsFinding finding{taken.camera, {}, {}, {}};
-  finding.text = "d = dH·focalLength/Z − shift with " + taken.name + ": " +
-                 number(taken.disparity.min) + " … " + number(taken.disparity.max) +
-                 " px for depth " + number(facts.depth.min) + " … " + number(facts.depth.max);
+  finding.text =
+      fmt::format(finding_text("units.stored"), taken.name, number(taken.disparity.min),
+                  number(taken.disparity.max), number(facts.depth.min), number(facts.depth.max));
   if (std::isfinite(taken.error)) {
     finding.check = fmt::format(finding_text("depth.by_warping"), number(taken.error));
   }

@@ -358,6 +358,7 @@ class ArchiveReading {
     progress.step("reading views");
     parts_.samples =
         read_archive_samples(file_, layout_, options_, parts_.info, progress.part(0, 0.45));
+    show_epis(parts_.samples, options_);
     // Samples that stay in the file are read by the checks.
     const double read = is_mapped() ? 0.1 : 0.8;
     read_maps(progress.part(0, read));

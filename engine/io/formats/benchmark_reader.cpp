@@ -403,6 +403,7 @@ class BenchmarkReading {
         arrange_as_seen(pixels_.samples, views_, report_, progress.part(0.9, 1))) {
       pixels_ = load_views(views_, show_center, progress);
     }
+    show_epis(pixels_.samples, options_);
     account_.use(views_.files, "views");
     account_.leave_out(views_.left_out, kViewsLeftOut);
     account_.leave_out(views_.unusable, kUnusableViews);

@@ -134,7 +134,8 @@ std::vector<FileUse> uses_beside(const fs::path& path, const MosaicDataset& data
   std::vector<FileUse> uses{{"mosaics", 1, dataset.name, true}};
   for (const Hdf5Dataset& other : Hdf5Input(path).datasets()) {
     if (other.name == dataset.name) continue;
-    uses.push_back({"array of " + shape_text(other.shape), 1, other.name, false});
+    uses.push_back({fmt::format(finding_text("dataset.array"), shape_text(other.shape)), 1,
+                    other.name, false});
   }
   return uses;
 }

@@ -2,6 +2,7 @@
 #include "engine/io/models/array_file.h"
 
 #include "engine/core/error.h"
+#include "engine/core/finding.h"
 #include "engine/core/text.h"
 #include "engine/io/models/names/view_files.h"
 #include "engine/io/models/sidecar_maps/map_name.h"
@@ -390,7 +391,7 @@ ArrayEntry describe(const Hdf5Input& file, const Hdf5Dataset& dataset, bool is_m
     return entry;
   }
   if (!file.fault_of(dataset.name).empty()) {
-    entry.other_kind = "empty dataset";
+    entry.other_kind = finding_text("dataset.null");
     return entry;
   }
   entry.shape = dataset.shape;

@@ -204,7 +204,8 @@ constexpr const char* kDepthUnused = "depth maps, as no camera parameters are kn
 FileUse not_used(const ArrayEntry& entry) {
   if (kind_of(entry) == MapKind::Depth) return {kDepthUnused, 1, entry.name, false};
   const std::string content = content_text(entry);
-  return {entry.other_kind.empty() ? "array of " + content : content, 1, entry.name, false};
+  return {entry.other_kind.empty() ? fmt::format(finding_text("dataset.array"), content) : content,
+          1, entry.name, false};
 }
 
 /// Reads the arrays one after the other; keeps the first of each kind.

@@ -284,11 +284,6 @@ CenterEpis center_epis(const ViewStack<T>& stack) {
           preview_rgb<T>(std::as_const(vertical).view())};
 }
 
-void show_epis(const LightField::Samples& samples, const OpenOptions& options) {
-  if (!options.on_center_epis) return;
-  options.on_center_epis(std::visit([](const auto& stack) { return center_epis(stack); }, samples));
-}
-
 ViewCrop find_crop(const std::string& option, GridShape stored, const ViewBrightness& brightness) {
   if (option == "all") return central_crop(stored, stored);
   return option.empty() ? filled_crop(brightness) : parse_crop(option, stored);
@@ -357,6 +352,11 @@ void tell_what_is_misplaced(const SceneParts& parts, ConventionReport& report,
 
 }  // namespace
 
+void show_epis(const LightField::Samples& samples, const OpenOptions& options) {
+  if (!options.on_center_epis) return;
+  options.on_center_epis(std::visit([](const auto& stack) { return center_epis(stack); }, samples));
+}
+
 void assemble(SceneParts parts, const OpenOptions& options, Scene& scene,
               const Progress& progress) {
   show_epis(parts.samples, options);
@@ -420,6 +420,9 @@ std::vector<FileUse> count_unused(const std::vector<std::string>& names,
     const auto [place, is_new] = places.try_emplace(kind, kinds.size());
     if (is_new) kinds.push_back({kind, 0, name, false});
     ++kinds[place->second].count;
+  }
+  for (FileUse& kind : kinds) {
+    if (kind.count == 1) kind.kind = kind.example;
   }
   return kinds;
 }

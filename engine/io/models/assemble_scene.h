@@ -25,6 +25,10 @@ struct SceneParts {
   std::optional<AxesFinding> axes{};  ///< Set if the reader has compared rows and columns.
 };
 
+/// Shows EPIs (OpenOptions::on_center_epis) as stored. For readers that read more before they
+/// assemble.
+void show_epis(const LightField::Samples& samples, const OpenOptions& options);
+
 /// Finishes reading: brings the parts into canonical order, sets samples that are not finite to 0,
 /// and stores light field and, if needed, truth in `scene`. Shows EPIs
 /// (OpenOptions::on_center_epis) as stored, and again once the order is known. Continues the report

@@ -261,7 +261,17 @@ void TranslationTest::valuesOfFindings_areTranslated() {
       said(finding_text("order.direction"), said(finding_text("sign.occlusion"), 747, 177, 93, 32));
   const std::string turned = said(finding_text("exif.all"), finding_text("exif.upside_down"), 4);
   const std::string part = said(finding_text("numbers.rows"), "0, 2 … 8");
-  for (const std::string& sentence : {slopes + "; " + direction, turned, part}) {
+  const std::string link =
+      said(finding_text("dataset.left_out"), "_", finding_text("dataset.nothing"));
+  const std::string empty =
+      said(finding_text("dataset.left_out"), "_", finding_text("dataset.empty"));
+  const std::string depth =
+      said(finding_text("units.stored"), finding_text("units.as_stored"), -1, 2, 3, 4);
+  const std::string poses =
+      said(finding_text("format.grid"), said(finding_text("format.posed"), "_"));
+  const std::string array = said(finding_text("dataset.array"), "5×5×96×128×3");
+  for (const std::string& sentence :
+       {slopes + "; " + direction, turned, part, link, empty, depth, poses, array}) {
     const QString words = finding_words(sentence);
     QVERIFY2(!has_word(words), qPrintable(words));
   }

@@ -95,7 +95,7 @@ def test_map_that_explains_little_is_told(scene, result, tmp_path, cli):
     numpy.save(tmp_path / "mine.npy", noise)
     expected = of_command_line(cli, "mine.npy")
     scores = of_python(episcope.score(noise, scene))
-    assert "explains little of the truth" in scores["notes"][0]
+    assert "explains little of the ground truth" in scores["notes"][0]
     assert scores == expected
     assert "notes" not in episcope.score(result, scene)
     assert episcope.score(noise, scene.truth)["notes"] == scores["notes"]

@@ -27,11 +27,11 @@ expect() {
 folder=$("$cli" info "$work/glass")
 expect "$folder" "Blender light field \(rendered by Blender"
 expect "$folder" "3×3 views of 120×100 px"
-expect "$folder" "order +as stored \(checked against truth"
+expect "$folder" "order +as stored \(checked against the ground truth"
 expect "$folder" "9 depth maps behind transparent surfaces"
 "$cli" convert "$work/glass" "$work/archive/lf.h5" >/dev/null
 archive=$("$cli" info "$work/archive/lf.h5")
-expect "$archive" "order +as stored \(checked against truth"
+expect "$archive" "order +as stored \(checked against the ground truth"
 for row in "^camera" "^truth" "^layers" "^labels"; do
   of_folder=$(printf '%s\n' "$folder" | grep "$row" || true)
   of_archive=$(printf '%s\n' "$archive" | grep "$row" || true)

@@ -2,6 +2,7 @@
 #include "widgets/panels/metric_table.h"
 #include "tests/window_test_main.h"
 
+#include <QApplication>
 #include <QClipboard>
 #include <QGuiApplication>
 #include <QHeaderView>
@@ -135,6 +136,23 @@ class MetricTableTest : public QObject {
     QVERIFY(table.toLatex().startsWith("\\begin{tabular}{lr}"));
     QVERIFY(!table.toLatex().contains("plain"));
     QVERIFY(table.toCsv().contains("plain"));
+  }
+
+  void columns_areChosenWhereTheTableIsSaved() {
+    MetricTable table;
+    table.setTable(columns(), rows());
+    table.show();
+
+    table.findChild<QToolButton*>("metrics.save")->click();
+    auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget());
+    QVERIFY(menu);
+    QMenu* chosen = menu->actions().back()->menu();
+    QVERIFY(chosen);
+    emit chosen->aboutToShow();
+    chosen->actions().at(1)->trigger();
+    menu->close();
+
+    QVERIFY(table.toLatex().startsWith("\\begin{tabular}{lr}"));
   }
 
   void minorColumn_isShownOnceItIsChosen() {

@@ -363,7 +363,8 @@ void settle_orientation(PlacedViews& placed) {
 }
 
 NamedGrid by_poses(const fs::path& folder, PosedViews poses) {
-  NamedGrid grid{std::move(poses.placed), "*, placed by " + poses.name(), {}};
+  NamedGrid grid{
+      std::move(poses.placed), fmt::format(finding_text("format.posed"), poses.name()), {}};
   grid.left_out = left_out_of(list_images(folder), grid.placed.views);
   grid.poses = std::move(poses);
   settle_orientation(grid.placed);

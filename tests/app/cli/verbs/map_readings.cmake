@@ -34,7 +34,7 @@ foreach(row "reversed.h5;--map-transpose" "transposed.npy;--map-transpose"
             "flipped.tif;--map-flip=y")
   list(GET row 0 file)
   list(GET row 1 option)
-  expect("evaluate ${file}" 0 ERR "${file}: the map fits the truth far better with .*MSE×100 [0-9.e-]+ instead of [0-9.e+]+.*; if it is stored so, add ${option}\n"
+  expect("evaluate ${file}" 0 ERR "${file}: the map fits the ground truth far better with .*MSE×100 [0-9.e-]+ instead of [0-9.e+]+.*; if it is stored so, add ${option}\n"
          ARGS evaluate ${file} --truth lf.h5 --json)
   json_near("${out}" 1 100000000 results 0 mse_100)
   json_near("${out}" 0 0.01 results 0 better_reading mse_100)
@@ -60,7 +60,7 @@ string(REPEAT "-1," 63 missing)
 string(FIND "${rows}" "\n" end)
 string(SUBSTRING "${rows}" ${end} -1 rows)
 file(WRITE "${WORK}/missing.csv" "${missing}-1${rows}")
-expect("evaluate it" 0 ERR "missing.csv: the map fits the truth far better with -1 taken as no estimate .*; if it is stored so, add --map-missing=-1\n"
+expect("evaluate it" 0 ERR "missing.csv: the map fits the ground truth far better with -1 taken as no estimate .*; if it is stored so, add --map-missing=-1\n"
        ARGS evaluate missing.csv --truth lf.h5 --json)
 json_is("${out}" "--map-missing=-1" results 0 better_reading options)
 json_near("${out}" 0 0.0001 results 0 better_reading mse_100)
@@ -74,7 +74,7 @@ expect("no number" 2 ERR "--map-missing: 'x' is no number; give values between c
 # is not doubted.
 expect("another scene" 0 ARGS synthesize edge -o edge.h5 --views 3x3 --size 64x64)
 expect("its truth" 0 ARGS convert edge.h5 edge.pfm)
-set(little "the map explains little of the truth: MSE×100 [0-9.]+ against [0-9.]+ of the best constant map; check its scale, units and view")
+set(little "the map explains little of the ground truth: MSE×100 [0-9.]+ against [0-9.]+ of the best constant map; check its scale, units and view")
 expect("evaluate it" 0 ERR "edge.pfm: ${little}\n$" ARGS evaluate edge.pfm --truth lf.h5 --json)
 string(JSON note GET "${out}" results 0 notes 0)
 if(NOT note MATCHES "^${little}$")
@@ -106,9 +106,9 @@ file(MAKE_DIRECTORY "${WORK}/theirs" "${WORK}/objects")
 file(COPY_FILE "${WORK}/negated.pfm" "${WORK}/theirs/objects.pfm")
 file(COPY_FILE "${WORK}/lf.h5" "${WORK}/objects/lf.h5")
 set(benchmark benchmark objects --methods epi_l --views center --submission theirs -o tables --json)
-expect("benchmark a submission" 0 ERR "objects.pfm: the map fits the truth far better"
+expect("benchmark a submission" 0 ERR "objects.pfm: the map fits the ground truth far better"
        ARGS ${benchmark})
-if(NOT out MATCHES "objects.pfm: the map fits the truth far better with values negated")
+if(NOT out MATCHES "objects.pfm: the map fits the ground truth far better with values negated")
   fail_case("the benchmark does not tell of a negated map:\n${out}")
 endif()
 expect("benchmark it as told" 0 ARGS ${benchmark} --map-scale -1)

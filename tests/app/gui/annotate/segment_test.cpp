@@ -13,6 +13,7 @@
 #include "tests/app/gui/held_lane.h"
 #include "tests/window_test_main.h"
 #include "widgets/canvas/view_canvas.h"
+#include "widgets/controls/labels.h"
 #include "widgets/controls/message_bar.h"
 #include "widgets/panels/color_bar.h"
 #include "widgets/panels/segment_panel.h"
@@ -260,6 +261,11 @@ void SegmentTest::wrongPixels_areTintedAlone() {
   const auto wrong = static_cast<int>(std::lround((1 - f.accuracy()) * 96 * 96));
   QVERIFY(wrong > 0);
   QTRY_COMPARE_WITH_TIMEOUT(tinted(), wrong, kPatience);
+  f.trigger("tab.compare");
+  const auto* title = f.window.findChild<ElidedLabel*>("statistics.title");
+  const QString share = QString::number(100 * (1 - f.accuracy()), 'f', 2);
+  QTRY_COMPARE_WITH_TIMEOUT(
+      title->fullText(), QString("Wrong labels: %1 % of the visible part").arg(share), kPatience);
 }
 
 void SegmentTest::labels_areComparedWithThoseOfAnotherFile() {

@@ -3,6 +3,7 @@
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
 #include "widgets/canvas/view_canvas.h"
+#include "widgets/controls/labels.h"
 #include "widgets/controls/message_bar.h"
 #include "widgets/panels/color_bar.h"
 #include "widgets/panels/overlay_bar.h"
@@ -56,6 +57,8 @@ class OverlayTest : public QObject {
   void colorsOfErrors_areThoseOfTheLegend();
   void view_isGreyUnderMapsUntilColorIsAskedFor();
   void heldTab_flips();
+  void labels_haveNoStatistics();
+  void listOfMaps_isAsWideForEveryLightField();
   void hugeTruth_leavesTheLayoutAlone();
   void savedPicture_isTheShownOne();
   void failedExport_isTold();
@@ -103,7 +106,7 @@ void OverlayTest::maps_areThoseThatExist_andAllListsAgree() {
 
   f.trigger("tab.compare");
   f.click("button.overlay.bad_pixels");
-  QCOMPARE(maps.currentText(), QString("Bad"));
+  QCOMPARE(maps.currentText(), QString("Bad pixels"));
   QVERIFY(f.window.bench().commands.find("overlay.bad_pixels")->isChecked());
   f.trigger("tab.annotate");
   f.click("button.segment.edges");
@@ -333,6 +336,33 @@ void OverlayTest::compareTab_showsTheMainMetricsWithoutScrolling() {
   QVERIFY2(end <= table->viewport()->width(),
            qPrintable(QString("%1 > %2").arg(end).arg(table->viewport()->width())));
   QCOMPARE(table->horizontalScrollBar()->maximum(), 0);
+}
+
+void OverlayTest::labels_haveNoStatistics() {
+  WindowFixture f;
+  f.openSmall();
+  f.trigger("tab.compare");
+  const auto* title = f.window.findChild<ElidedLabel*>("statistics.title");
+
+  choose_map(f.window, "Labels");
+
+  QTRY_COMPARE_WITH_TIMEOUT(title->fullText(), QString("Labels have no statistics"), kPatience);
+}
+
+// The focus beside it once moved.
+void OverlayTest::listOfMaps_isAsWideForEveryLightField() {
+  WindowFixture f;
+  const auto* maps = f.window.findChild<QComboBox*>("overlay.quantity");
+  const auto* focus = f.window.findChild<QDoubleSpinBox*>("overlay.focusSpin");
+  f.openSmall();
+  const int width = maps->width();
+  const int place = focus->mapTo(&f.window, QPoint()).x();
+
+  f.runAndWait();
+
+  QTRY_VERIFY(maps->count() > 4);
+  QCOMPARE(maps->width(), width);
+  QCOMPARE(focus->mapTo(&f.window, QPoint()).x(), place);
 }
 
 }  // namespace episcope::in_window_overlay_test

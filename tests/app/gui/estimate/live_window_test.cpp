@@ -95,6 +95,7 @@ void LiveWindowTest::toggle_showsAMapThatIsNotKept() {
   QTRY_VERIFY_WITH_TIMEOUT(f.overlay().isUpToDate() && f.overlay().map(), kPatience);
   QVERIFY(!f.overlay().picture().isNull());
   QVERIFY2(f.status().contains("coarse") && f.status().contains("full"), qPrintable(f.status()));
+  QCOMPARE(*f.live().full_seconds(), f.live().map()->estimate->seconds);  // as in the list
   for (const OpenScene* each : f.session().scenes()) QVERIFY(each->estimates.empty());
   QCOMPARE(f.window.bench().jobs.count(), 0);
 }

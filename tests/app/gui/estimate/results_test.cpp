@@ -70,6 +70,7 @@ class ResultsTest : public QObject {
   void run_listsItsResultWithItsError();
   void resultThatIsNotSeen_isTold_data();
   void resultThatIsNotSeen_isTold();
+  void offerToShowAResult_endsOnceItIsSeen();
   void nothingRuns_whileAnotherLightFieldIsRead();
   void rangeSetByHand_staysForOtherMethods();
   void exportedResult_readsBack();
@@ -342,8 +343,9 @@ void ResultsTest::mapOfTheOtherSign_isOpenedWithAWarning_andNegatedWhenAsked() {
 
   QTRY_COMPARE_WITH_TIMEOUT(session.estimates().size(), 1U, kPatience);
   const MessageBar* messages = f.window.findChild<MessageBar*>("messageBar");
-  for (const char* words : {"negated.pfm: the map fits the truth far better with values negated",
-                            "MSE×100 0 instead of "}) {
+  for (const char* words :
+       {"negated.pfm: the map fits the ground truth far better with values negated",
+        "MSE×100 0 instead of "}) {
     QTRY_VERIFY2_WITH_TIMEOUT(messages->text().contains(words), qPrintable(messages->text()),
                               kPatience);
   }
@@ -468,6 +470,21 @@ void ResultsTest::cornerThatAViewDoesNotShow_hasNoDisparity() {
 
   const auto text = [&f] { return find<ValueBar>(f.window).text(); };
   QTRY_VERIFY2(text().contains("EPI_L invalid"), qPrintable(text()));
+}
+
+void ResultsTest::offerToShowAResult_endsOnceItIsSeen() {
+  WindowFixture f;
+  f.openSmall();
+  f.window.bench().overlay.setQuantity(render::Quantity::Truth);
+  QCoreApplication::processEvents();
+  const auto* bar = f.window.findChild<MessageBar*>("messageBar");
+  find<EstimateController>(f.window).run({"st_ch_l", {}, {.views = ViewSelection::Center}});
+  QTRY_VERIFY_WITH_TIMEOUT(bar->isVisible() && bar->text().startsWith("New result: ST_CH_L"),
+                           kScenePatience);
+
+  f.window.bench().overlay.setQuantity(render::Quantity::Disparity);  // as the key M does
+
+  QTRY_VERIFY_WITH_TIMEOUT(!bar->isVisible(), kPatience);
 }
 
 }  // namespace episcope::in_results_test

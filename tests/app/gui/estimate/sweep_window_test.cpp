@@ -245,6 +245,8 @@ void SweepWindowTest::withoutTruth_plotsChangeAndTime() {
   bare->truth = std::make_shared<const GroundTruth>();
   f.session().open(bare, f.session().input());
   QCoreApplication::processEvents();
+  const auto* measures = f.window.findChild<QComboBox*>("sweep.upper.measure");
+  QVERIFY2(measures->itemText(0).contains("Change"), qPrintable(measures->itemText(0)));
   f.vary("sweep.first", "inner_scale", "0.8, 1.2");
   f.run();
   QVERIFY(f.upper().plot().y.title.contains("Change"));

@@ -117,6 +117,8 @@ class SavedProjectTest : public QObject {
   void otherSamples_areTold();
   void otherSize_movesThePlaceInside();
   void saveKey_savesTheProjectOnceThereIsOne();
+  void saveKey_withoutScribbles_asksForAProject();
+  void scribblesThatAreNone_areNotWritten();
   void changedProjectFile_isNotOverwrittenSilently();
   void damagedProject_isToldAndKeepsWhatIsOpen();
   void damagedLightField_leavesTheOthersToChoose();
@@ -389,6 +391,37 @@ void SavedProjectTest::closedLightField_marksTheProject() {
   QTRY_VERIFY(f.window.isWindowModified());
   f.key(Qt::Key_S, Qt::ControlModifier);
   QTRY_VERIFY_WITH_TIMEOUT(!f.window.isWindowModified(), kScenePatience);
+}
+
+// It once wrote an empty labels.h5 into the folder of the light field.
+void SavedProjectTest::saveKey_withoutScribbles_asksForAProject() {
+  Working f;
+  f.openSmall("edge");
+  f.estimate();
+  const FileStamp before = stamp_of(f.path("edge/labels.h5").toStdString());
+
+  f.key(Qt::Key_S, Qt::ControlModifier);
+
+  auto* dialog = f.window.findChild<QFileDialog*>("save_project");
+  QVERIFY(dialog);
+  emit dialog->fileSelected(f.path("work.episcope"));
+  dialog->reject();
+  QTRY_VERIFY_WITH_TIMEOUT(f.session().estimates()[0].is_saved, kScenePatience);
+  QVERIFY(stamp_of(f.path("edge/labels.h5").toStdString()) == before);
+  QVERIFY(f.window.bench().guards.may_leave(Leaving::Session));
+}
+
+void SavedProjectTest::scribblesThatAreNone_areNotWritten() {
+  Working f;
+  f.openSmall("edge");
+  f.trigger("annotate.mode");
+  const FileStamp before = stamp_of(f.path("edge/labels.h5").toStdString());
+
+  f.trigger("file.save_scribbles");
+
+  QTRY_VERIFY(f.window.findChild<MessageBar*>("messageBar")->text().contains("Nothing is painted"));
+  QCOMPARE(f.window.bench().jobs.count(), 0);
+  QVERIFY(stamp_of(f.path("edge/labels.h5").toStdString()) == before);
 }
 
 }  // namespace episcope::in_saved_project_test

@@ -2,6 +2,7 @@
 #include "app/gui/annotate/annotation_files.h"
 #include "app/session/project_file.h"
 #include "app/session/project_store.h"
+#include "app/session/result_files.h"
 #include "tests/app/gui/files/working.h"
 #include "tests/window_test_main.h"
 
@@ -80,6 +81,7 @@ class UnlostWorkTest : public QObject {
   void strokesThatCannotBeRead_stayBesideNewOnes();
   void keptLines_areAskedFor();
   void keptLines_markTheProject();
+  void mapThatWasOpened_isAFileAlready();
   void scribblesSavedOnTheWayToAnotherScene_areSaved();
   void fullDisk_whileAProjectIsSaved_isTold();
   void manyResults_areEvaluatedOnce();
@@ -200,6 +202,25 @@ void UnlostWorkTest::manyResults_areEvaluatedOnce() {
 
   QVERIFY(!f.session().is_evaluating());
   QVERIFY(has_all());
+}
+
+// Also after a crash, when the session comes back from its own files.
+void UnlostWorkTest::mapThatWasOpened_isAFileAlready() {
+  Working f;
+  f.openSmall("edge");
+  f.estimate();
+  save_map(f.path("map.pfm").toStdString(), *f.session().estimates()[0].estimate,
+           f.session().view());
+  f.session().remove_estimate(f.session().estimates()[0].id);
+
+  f.window.bench().results.open(f.path("map.pfm"));
+
+  QTRY_COMPARE_WITH_TIMEOUT(f.session().estimates().size(), 1U, kScenePatience);
+  QVERIFY(f.window.bench().guards.may_leave(Leaving::Session));
+  const auto left = project_of(f.session());
+  QVERIFY(scene_of(left.scenes.at(0), false).estimates.at(0).is_saved);
+  f.saveAs(f.path("work.episcope"));
+  QVERIFY(read_project(f.path("work.episcope").toStdString()).scenes.at(0).results.at(0).is_saved);
 }
 
 }  // namespace episcope::in_unlost_work_test

@@ -112,6 +112,7 @@ class LanguageTest : public QObject {
   void appliedLanguage_translatesTheWindowAndQt();
   void unknownLanguage_changesNothing();
   void composedSteps_areTranslated();
+  void failuresOfJobs_areWholeSentences();
   void english_hasPlurals();
   void keys_areReadAndWrittenInEveryLanguage();
   void numbersOfTheCLibrary_keepThePoint();
@@ -331,6 +332,19 @@ void LanguageTest::tabs_doNotScroll() {
                qPrintable(bar->tabText(i)));
     }
   }
+}
+
+void LanguageTest::failuresOfJobs_areWholeSentences() {
+  QVERIFY(apply_language("de"));
+  WindowFixture f;
+  f.openSmall();
+  const QSignalSpy failures(&f.window.bench().jobs, &Jobs::failed);
+
+  f.window.bench().opener.open("/no/such/place");
+
+  QTRY_COMPARE(failures.size(), 1);
+  const QString sentence = failures[0][0].toString();
+  QVERIFY2(sentence.startsWith("Öffnen von place fehlgeschlagen: "), qPrintable(sentence));
 }
 
 }  // namespace episcope::in_language_test

@@ -121,8 +121,8 @@ class JudgeTest : public QObject {
 
     QVERIFY(found.has_value());
     const QString text = QString::fromStdString(better_reading_text(*found));
-    for (const char* words : {"fits the truth far better with values negated", "MSE×100 0 instead",
-                              "; if it is stored so, add --map-scale=-1"}) {
+    for (const char* words : {"fits the ground truth far better with values negated",
+                              "MSE×100 0 instead", "; if it is stored so, add --map-scale=-1"}) {
       QVERIFY2(text.contains(words), qPrintable(text));
     }
     QCOMPARE(*find_metric(judge(right, *scene, {}).metrics, "mse_100"), 0.0);
@@ -141,8 +141,9 @@ class JudgeTest : public QObject {
     }
 
     const QString text = QString::fromStdString(doubt_text(std::nullopt, exchanged, *scene));
-    QVERIFY2(text.contains("against the truth of view 0,2, the map of that view has MSE×100"),
-             qPrintable(text));
+    QVERIFY2(
+        text.contains("against the ground truth of view 0,2, the map of that view has MSE×100"),
+        qPrintable(text));
     QCOMPARE(doubt_text(std::nullopt, *right, *scene), std::string());
   }
 

@@ -77,7 +77,8 @@ class ArchiveTest : public QObject, private ArchiveFolder {
     QVERIFY(has_same_samples(scene, read));
     QVERIFY(largest_difference(scene.truth->field, read.truth->field) < kDepthRounding);
     QCOMPARE(read.convention.order, std::string("as stored"));
-    QVERIFY(QString::fromStdString(read.convention.order_check).contains("checked against truth"));
+    QVERIFY(QString::fromStdString(read.convention.order_check)
+                .contains("checked against the ground truth"));
     QCOMPARE(read.light_field->info().camera.shift, 5.0);
     QCOMPARE(*read.light_field->info().disparity_range, (Interval{-3, 3}));
     QCOMPARE(std::memcmp(read.truth->labels.data(), scene.truth->labels.data(),
@@ -379,6 +380,21 @@ class ArchiveTest : public QObject, private ArchiveFolder {
     QCOMPARE(calls, 1);
     QVERIFY(fraction_at_center <= 0);
     QVERIFY(fraction > 0.5);
+  }
+
+  void epis_areShownBeforeDepthIsRead() {
+    io::write_archive(path("lf.h5"), plane_scene(), Progress(1));
+    std::string step;
+    QStringList steps;
+    io::OpenOptions options;
+    options.on_center_epis = [&](const io::CenterEpis&) { steps << QString::fromStdString(step); };
+    const Progress progress(
+        {}, [&](const ProgressState& state) { step = state.step; }, 1);
+
+    (void)io::open_scene(path("lf.h5"), options, progress);
+
+    QVERIFY(!steps.isEmpty());
+    QCOMPARE(steps.front(), QString("reading views"));
   }
 
   void reading_stopsOnRequest() {

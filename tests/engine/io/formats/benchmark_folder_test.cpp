@@ -164,8 +164,8 @@ class BenchmarkFolderTest : public QObject {
       return warns_of(scene, words);
     };
 
-    QVERIFY(warns("disp_min = -0.1\ndisp_max = 0.1", "but the truth has"));
-    QVERIFY(!warns("disp_min = -2\ndisp_max = 2", "but the truth has"));
+    QVERIFY(warns("disp_min = -0.1\ndisp_max = 0.1", "but the ground truth has"));
+    QVERIFY(!warns("disp_min = -2\ndisp_max = 2", "but the ground truth has"));
     QVERIFY(warns("disp_min = 2\ndisp_max = -2", "is not below disp_max"));
   }
 

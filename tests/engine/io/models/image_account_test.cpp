@@ -83,11 +83,13 @@ class ImageAccountTest : public QObject {
 
 void ImageAccountTest::everyFile_isAccountedFor() {
   write_views({3, 3}, "{r}_{c}.png");
-  for (const char* name : {"license.txt", "map.h5", "shot_1.raw", "shot_22.raw", ".hidden"}) {
+  for (const char* name :
+       {"license.txt", "map.h5", "shot_1.raw", "shot_22.raw", "points3D.txt", ".hidden"}) {
     std::ofstream(path(name)) << "x";
   }
 
-  QCOMPARE(account(open()), QString("9 views; 1 license.txt, 1 map.h5, 2 shot_#.raw"));
+  QCOMPARE(account(open()),
+           QString("9 views; 1 license.txt, 1 map.h5, 1 points3D.txt, 2 shot_#.raw"));
 }
 
 void ImageAccountTest::folderInside_isAccountedForWithTheOneAround() {

@@ -284,7 +284,7 @@ class SignCheckTest : public QObject {
     io::assemble(std::move(parts), {}, scene, Progress(2));
 
     QVERIFY2(has_views(scene, stored.views), told(scene).c_str());
-    QVERIFY2(scene.convention.order_check.starts_with("by the truth"), told(scene).c_str());
+    QVERIFY2(scene.convention.order_check.starts_with("by the ground truth"), told(scene).c_str());
     const ViewStack<std::int32_t>& labels = scene.truth->labels;
     QVERIFY(std::equal(labels.data(), labels.data() + labels.size(), stored.labels.data()));
     QVERIFY(!scene.convention.are_axes_unclear);

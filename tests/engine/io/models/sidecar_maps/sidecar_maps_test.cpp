@@ -404,7 +404,7 @@ class SidecarMapsTest : public QObject {
 
     QVERIFY(!read.truth->has_disparity());
     QVERIFY(read.truth->labels.empty());
-    QVERIFY(read.convention.order_check.starts_with("checked against truth"));
+    QVERIFY(read.convention.order_check.starts_with("checked against the ground truth"));
   }
 };
 
