@@ -4,6 +4,7 @@
 #include "app/benchmark/run_log.h"
 #include "app/benchmark/scene_runs.h"
 #include "app/session/result_files.h"
+#include "app/session/result_fit.h"
 #include "engine/core/error.h"
 #include "engine/core/text.h"
 #include "engine/core/text_table.h"
@@ -123,16 +124,13 @@ std::optional<Estimate> read_submission(const fs::path& folder, const Scene& sce
                               " and " + maps[1].filename().string() + "; keep one");
   }
   Estimate estimate = read_result_of(light_field, maps.front(), reading);
-  check_fits(estimate, light_field, maps.front().string());
   bring_to_focus(estimate, light_field, Progress());
-  const auto better = find_better_reading(estimate, scene);
-  check_values(maps.front(), light_field.center(), !better, estimate);
-  if (is_of_other_samples(estimate, light_field)) {
-    estimate.notes.push_back(maps.front().filename().string() +
-                             ": it was estimated from other samples than those of this scene");
+  const ResultFit fit = fit_of(estimate, scene);
+  if (estimate.version.empty()) estimate.notes.clear();  // the fit tells them
+  for (const std::string& sentence : fit.sentences()) {
+    estimate.notes.push_back(maps.front().filename().string() + ": " + sentence);
   }
-  const std::string doubt = doubt_text(better, estimate, scene);
-  if (!doubt.empty()) estimate.notes.push_back(maps.front().filename().string() + ": " + doubt);
+  check_values(maps.front(), light_field.center(), !fit.better, estimate);
   if (!(estimate.seconds > 0)) estimate.seconds = seconds_of(folder, name);
   return estimate;
 }

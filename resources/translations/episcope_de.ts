@@ -3396,12 +3396,12 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Jede zweite %1 von Ansichten scheint umgekehrt zu sein.</translation>
     </message>
     <message>
-        <source>Rows and columns of views seem to be exchanged in these maps: against the truth of view %1, the map of that view has MSE×100 %2, that of view %3 %4. Exchange the first two axes of the array.</source>
-        <translation>In diesen Karten scheinen Zeilen und Spalten der Ansichten vertauscht zu sein: Gegen die wahre Disparität der Ansicht %1 hat deren Karte MSE×100 %2, die der Ansicht %3 %4. Vertauschen Sie die ersten beiden Achsen des Arrays.</translation>
+        <source>The views of these maps seem to be stored in another order, %1: against the truth, MSE×100 is %2 so and %3 as read. Put the first two axes of the array in order.</source>
+        <translation>Die Ansichten dieser Karten scheinen in anderer Reihenfolge gespeichert zu sein, %1: Gegen die wahre Disparität ist MSE×100 so %2 und wie gelesen %3. Ordnen Sie die ersten beiden Achsen des Arrays.</translation>
     </message>
     <message>
-        <source>Rows and columns of views seem to be exchanged.</source>
-        <translation>Zeilen und Spalten der Ansichten scheinen vertauscht zu sein.</translation>
+        <source>The maps seem to be of other views: %1.</source>
+        <translation>Die Karten scheinen zu anderen Ansichten zu gehören: %1.</translation>
     </message>
     <message>
         <source>Rows of cameras are %1 times as far apart as columns.</source>

@@ -13,6 +13,8 @@
 #include "engine/io/models/scribble_file.h"
 #include "engine/io/models/stored_maps.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -313,6 +315,13 @@ void write_stated(Hdf5Output& file, const StatedFacts& stated) {
   }
 }
 
+void require_size(const DisparityField& field, const LightField& views) {
+  const ViewStack<float>& maps = field.disparity;
+  if (maps.empty() || (maps.height() == views.height() && maps.width() == views.width())) return;
+  throw InvalidInput(fmt::format("the truth has {}×{} px, but the views have {}×{} px",
+                                 maps.width(), maps.height(), views.width(), views.height()));
+}
+
 // All layers as depth, and as disparity if that is wanted.
 void write_truth(Hdf5Output& file, const Scene& scene, const CameraGrid& camera, bool has_disparity,
                  const Progress& progress) {
@@ -322,6 +331,7 @@ void write_truth(Hdf5Output& file, const Scene& scene, const CameraGrid& camera,
   double done = 0;
   for (const auto& [layer, field] : fields) {
     progress.check();
+    require_size(*field, *scene.light_field);
     const std::string depth = std::string(kTrueDepth) + layer;
     const std::string disparity = std::string(kTrueDisparity) + layer;
     write_depth(file, depth, *field, scene, camera, progress.part(done, done + 0.25));
