@@ -257,7 +257,7 @@ std::string offset_text(const DisparityView& map, const DisparityView& truth) {
   if (std::abs(offset) < kSmallOffset_px || !(without < kFarBetter * as_read)) return {};
   return fmt::format(
       "the map is off by {:+.3g} px everywhere: without that, MSE×100 would be {:.3g} instead of "
-      "{:.3g}; check its focus plane, no option undoes it",
+      "{:.3g}; check which focus plane it belongs to (--focus)",
       offset, without, as_read);
 }
 

@@ -437,7 +437,8 @@ void write_disparity_pfm(const fs::path& path, const DisparityView& map) {
 }
 
 /// Parameters whose camera has the same B·f and shift; depth is in mm, as the benchmark has it.
-std::string config_text(const LightField& field) {
+std::string config_text(const Scene& scene) {
+  const LightField& field = *scene.light_field;
   constexpr double kFocalLengthMm = 100;
   constexpr double kSensorMm = 35;
   const CameraGrid& camera = field.info().camera;
@@ -463,6 +464,10 @@ std::string config_text(const LightField& field) {
   if (field.info().disparity_range) {
     text << "disp_min = " << field.info().disparity_range->min
          << "\ndisp_max = " << field.info().disparity_range->max << "\n";
+  }
+  if (const auto& estimated = scene.truth->estimated) {
+    text << kEstimatedBy << " = " << estimated->method << "\n"
+         << kEstimatedFrom << " = " << estimated->source << "\n";
   }
   return text.str();
 }
@@ -509,7 +514,7 @@ void write_benchmark_folder(const fs::path& folder, const Scene& scene, const Pr
     const ViewIndex view = field.grid().view_at(i);
     write_benchmark_view(target.temporary() / view_file_name(i), field, view);
   });
-  const std::string config = config_text(field);
+  const std::string config = config_text(scene);
   write_atomically(target.temporary() / kBenchmarkConfig,
                    {reinterpret_cast<const std::uint8_t*>(config.data()), config.size()});
   write_truth(target.temporary(), scene);

@@ -169,5 +169,7 @@ expect("info of it as JSON" 0 ARGS info estimated.h5 --json)
 json_is("${out}" axes truth_estimated method)
 expect("evaluate against it" 0 ERR "no ground truth: it was estimated by axes from lf.h5"
        ARGS evaluate truth.pfm --truth estimated.h5)
-expect("a form that cannot say so" 0 ERR "read as ground truth" ARGS convert axes.h5 folder/
+expect("as a folder" 0 ARGS convert axes.h5 folder/ --truth lf.h5 -q)
+expect("info of that" 0 OUT "not ground truth: estimated by axes from [.a-z_/]*lf.h5\n" ARGS info folder)
+expect("a form that cannot say so" 0 ERR "read as ground truth" ARGS convert axes.h5 theirs.npz
        --truth lf.h5)
