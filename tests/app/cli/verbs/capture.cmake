@@ -79,6 +79,11 @@ expect("pose of wrong pairs" 0 ERR "wrong.json: the pairs are off by [0-9.]+ px 
 file(MAKE_DIRECTORY "${WORK}/wrong")
 expect("truth of that pose" 0 ERR "wrong.json: the pairs are off by"
        ARGS ground-truth raw.h5 --pose wrong.json -o wrong/lf.h5)
+file(READ "${WORK}/pairs.csv" pairs)
+string(REGEX REPLACE "\n(p1,[^,]*,[^,]*),[^\n]*" "\n\\1,9999,9999,9999" pairs "${pairs}")
+file(WRITE "${WORK}/off.csv" "${pairs}")
+expect("pose of pairs off the mesh" 0 ERR "off.json: the points of p1 lie outside of the mesh"
+       ARGS pose raw.h5 --mesh rig/mesh.ply --pairs off.csv -o off.json)
 expect("pose of pairs that are none" 1 ERR "line 1" ARGS pose raw.h5 --mesh rig/mesh.ply
        --pairs rig/readme.txt -o other.json --quiet)
 expect("pose without a pinhole" 1 ERR "pinhole" ARGS pose demo:edge --mesh rig/mesh.ply
