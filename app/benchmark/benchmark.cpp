@@ -4,6 +4,7 @@
 #include "app/benchmark/run_log.h"
 #include "app/benchmark/scene_runs.h"
 #include "app/session/result_files.h"
+#include "app/session/result_fit.h"
 #include "engine/core/error.h"
 #include "engine/core/text.h"
 #include "engine/core/text_table.h"
@@ -109,7 +110,7 @@ void check_submission(const fs::path& folder) {
 
 /// The map for the light field of a scene, empty if the submission has none. Its notes tell whether
 /// another reading fits far better (find_better_reading), or else whether it explains little of the
-/// truth (poor_fit_text), and whether values lie beyond ±20 px, which no densely sampled light
+/// truth (doubt_text), and whether values lie beyond ±20 px, which no densely sampled light
 /// field has. Throws IoError, InvalidInput if it cannot be read, if there are several, if size or
 /// views do not fit, or if the view holds no finite value.
 std::optional<Estimate> read_submission(const fs::path& folder, const Scene& scene,
@@ -123,16 +124,13 @@ std::optional<Estimate> read_submission(const fs::path& folder, const Scene& sce
                               " and " + maps[1].filename().string() + "; keep one");
   }
   Estimate estimate = read_result_of(light_field, maps.front(), reading);
-  check_fits(estimate, light_field, maps.front().string());
   bring_to_focus(estimate, light_field, Progress());
-  const auto better = find_better_reading(estimate, scene);
-  check_values(maps.front(), light_field.center(), !better, estimate);
-  if (is_of_other_samples(estimate, light_field)) {
-    estimate.notes.push_back(maps.front().filename().string() +
-                             ": it was estimated from other samples than those of this scene");
+  const ResultFit fit = fit_of(estimate, scene);
+  if (estimate.version.empty()) estimate.notes.clear();  // the fit tells them
+  for (const std::string& sentence : fit.sentences()) {
+    estimate.notes.push_back(maps.front().filename().string() + ": " + sentence);
   }
-  const std::string doubt = doubt_text(better, estimate, scene);
-  if (!doubt.empty()) estimate.notes.push_back(maps.front().filename().string() + ": " + doubt);
+  check_values(maps.front(), light_field.center(), !fit.better, estimate);
   if (!(estimate.seconds > 0)) estimate.seconds = seconds_of(folder, name);
   return estimate;
 }

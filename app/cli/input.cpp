@@ -6,6 +6,7 @@
 #include "app/session/command_line.h"
 #include "app/session/load_scene.h"
 #include "app/session/result_files.h"
+#include "app/session/result_fit.h"
 #include "engine/core/error.h"
 #include "engine/io/base/array_layout.h"
 #include "engine/io/base/files.h"
@@ -136,20 +137,6 @@ Scene load_input(const std::string& input, io::OpenOptions open, bool needs_trut
   return open_input(input, std::move(open), needs_truth, progress);
 }
 
-namespace {
-
-/// Options of `reading`, the focus plane left aside, that `other` was not read with, as on the
-/// command line: " --flip=u".
-std::string options_missing_in(const Reading& other, const Reading& reading) {
-  ParameterSet options = reading.options;
-  std::erase_if(options, [&other](const auto& option) {
-    return option.first == Reading::kFocus || std::ranges::count(other.options, option) > 0;
-  });
-  return reading_options_text(options);
-}
-
-}  // namespace
-
 NamedReading reading_of(const std::string& result) {
   return {result, io::read_reading(result)};
 }
@@ -168,18 +155,11 @@ ViewIndex view_of(const LightField& light_field, ViewIndex view) {
       light_field.info().name, light_field.grid().v, light_field.grid().u, view_text(view)));
 }
 
-void note_other_source(const Estimate& estimate, const LightField& light_field, Job& job) {
-  if (!is_of_other_samples(estimate, light_field)) return;
-  const Reading& own = estimate.reading;
-  const Reading& other = light_field.info().reading;
-  std::string how;
-  if (const std::string more = options_missing_in(other, own); !more.empty()) {
-    how = "; its own were read with" + more;
-  } else if (const std::string less = options_missing_in(own, other); !less.empty()) {
-    how = "; its own were read without" + less;
-  }
-  job.note("the result was estimated from other samples than " + light_field.info().name + " has" +
-           how);
+void note_fit(const std::string& result, const Estimate& estimate, const Scene& scene, Job& job,
+              const std::string& remedy) {
+  const ResultFit fit = fit_of(estimate, scene);
+  for (const std::string& sentence : fit.notes) job.note(result + ": " + sentence);
+  if (fit.better) job.note(result + ": " + better_reading_text(*fit.better) + remedy);
 }
 
 void note_other_options(const NamedReading& first, const NamedReading& second, Job& job) {

@@ -88,9 +88,10 @@ template <class T>
   return {stack.first().v + middle.v, stack.first().u + middle.u};
 }
 
-/// Notes if the estimate was made from samples of another light field, and which reading options
-/// may explain it.
-void note_other_source(const Estimate& estimate, const LightField& light_field, Job& job);
+/// Notes what a user must know of the file `result` in the place of this light field (fit_of).
+/// `remedy` follows the options that fit better.
+void note_fit(const std::string& result, const Estimate& estimate, const Scene& scene, Job& job,
+              const std::string& remedy = {});
 
 /// Notes reading options, except the focus plane, that one of two results has and the other lacks,
 /// if both say how their light field was read.

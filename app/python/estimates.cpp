@@ -7,6 +7,7 @@
 #include "app/session/load_scene.h"
 #include "app/session/replace_file.h"
 #include "app/session/result_files.h"
+#include "app/session/result_fit.h"
 #include "app/session/run_estimator.h"
 #include "engine/core/error.h"
 #include "engine/core/text.h"
@@ -168,12 +169,18 @@ py::dict scores_of(const Estimate& estimate, const Evaluation& evaluation, Proto
     if (protocol == Protocol::Vmv2013) scores["runtime_class"] = runtime_class(estimate.seconds);
   }
   scores["all_views"] = has_all_views;
-  std::vector<std::string> notes = evaluation.notes;
-  if (estimate.version.empty()) {  // of another program: how it was read
-    notes.insert(notes.begin(), estimate.notes.begin(), estimate.notes.end());
-  }
-  if (!notes.empty()) scores["notes"] = notes;
+  if (!evaluation.notes.empty()) scores["notes"] = evaluation.notes;
   return scores;
+}
+
+/// Says how the result fits, before what the evaluation says.
+void add_fit(const ResultFit& fit, Evaluation& evaluation) {
+  const std::vector<std::string> notes = fit.sentences(better_reading_finding);
+  evaluation.notes.insert(evaluation.notes.begin(), notes.begin(), notes.end());
+}
+
+void add_better_reading(const ResultFit& fit, py::dict& scores) {
+  if (fit.better) scores["better_reading"] = object_from(better_reading_json(*fit.better));
 }
 
 py::dict score_scene(const py::object& map, const OpenedScene& opened, EvaluationOptions options,
@@ -181,14 +188,12 @@ py::dict score_scene(const py::object& map, const OpenedScene& opened, Evaluatio
   const LightField& lf = opened.light_field();
   const auto [estimate, at] =
       judged_estimate(map, *opened.scene, view_from(view, lf.grid()), reading);
-  std::optional<io::BetterReading> better;
+  ResultFit fit;
   Evaluation evaluation = result_of_job(py::none(), 0, [&](const Progress& job) {
     options.progress = job;
     Evaluation judged = judge(*estimate, *opened.scene, options, at);
-    better = find_better_reading(*estimate, *opened.scene);
-    const std::string doubt =
-        better ? better_reading_finding(*better) : poor_fit_text(*estimate, *opened.scene);
-    if (!doubt.empty()) judged.notes.push_back(doubt);
+    fit = fit_of(*estimate, *opened.scene);
+    add_fit(fit, judged);
     for (std::string& warning : truth_warnings(opened.scene->convention)) {
       judged.notes.push_back(std::move(warning));
     }
@@ -196,7 +201,7 @@ py::dict score_scene(const py::object& map, const OpenedScene& opened, Evaluatio
   });
   const bool has_all_views = estimate->field.disparity.grid() == lf.grid();
   py::dict scores = scores_of(*estimate, evaluation, options.protocol, has_all_views);
-  if (better) scores["better_reading"] = object_from(better_reading_json(*better));
+  add_better_reading(fit, scores);
   scores["truth"] = opened.input;
   if (const auto& units = opened.scene->convention.units; !units.empty()) {
     scores["truth_units"] = units;
@@ -229,6 +234,32 @@ ViewIndex view_to_score(const py::object& judged, const py::object& view, GridSh
   return own.is_none() || grid.count() == 1 ? grid.center() : *view_from(own, grid);
 }
 
+/// A map alone, beside a light field of one empty view that has the truth.
+ResultFit fit_of_view(const DisparityView& map, const DisparityView& truth) {
+  const auto alone = [](const DisparityView& view) {
+    const int height = view.disparity.height, width = view.disparity.width;
+    DisparityField field{ViewStack<float>({1, 1}, height, width),
+                         ViewStack<std::uint8_t>({1, 1}, height, width)};
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        field.disparity.view({}).at(y, x) = view.disparity.at(y, x);
+        field.valid.view({}).at(y, x) = view.is_valid(y, x) ? 1 : 0;
+      }
+    }
+    return field;
+  };
+  ViewStack<std::uint8_t> samples({1, 1}, truth.disparity.height, truth.disparity.width);
+  std::fill_n(samples.data(), samples.size(), std::uint8_t{0});
+  Scene scene;
+  scene.light_field = std::make_shared<const LightField>(std::move(samples), LightFieldInfo{});
+  auto known = std::make_shared<GroundTruth>();
+  known->field = alone(truth);
+  scene.truth = std::move(known);
+  Estimate estimate;
+  estimate.field = alone(map);
+  return fit_of(estimate, scene);
+}
+
 /// Against an array: pixel by pixel, with nothing known of the light field.
 py::dict score_array(const py::object& judged, const py::object& truth,
                      const EvaluationOptions& options, const py::object& view,
@@ -247,9 +278,12 @@ py::dict score_array(const py::object& judged, const py::object& truth,
   };
   const DisparityView one = view_in(estimate.field), true_one = view_in(known);
   Evaluation evaluation = evaluate(one, true_one, {}, options);
-  const std::string doubt = poor_fit_text(one, true_one);
-  if (!doubt.empty()) evaluation.notes.push_back(doubt);
-  return scores_of(estimate, evaluation, options.protocol, estimate.field.disparity.grid() == grid);
+  const ResultFit fit = fit_of_view(one, true_one);
+  add_fit(fit, evaluation);
+  py::dict scores =
+      scores_of(estimate, evaluation, options.protocol, estimate.field.disparity.grid() == grid);
+  add_better_reading(fit, scores);
+  return scores;
 }
 
 /// Throws InvalidInput that says what there is.

@@ -8,6 +8,7 @@
 #include "app/session/labeling_inputs.h"
 #include "app/session/replace_file.h"
 #include "app/session/result_files.h"
+#include "app/session/result_fit.h"
 #include "app/session/segmentation.h"
 #include "engine/core/error.h"
 #include "engine/io/models/scribble_file.h"
@@ -17,6 +18,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <utility>
@@ -27,12 +29,12 @@ namespace {
 struct ScoredLabels {
   Segmentation segmentation;
   LabelingScores scores;
+  std::vector<std::string> notes{};
 };
 
 /// Labels of all views as Python sees them.
 struct FoundLabels : ScoredLabels {
   OpenedScene of;
-  std::string unlabeled{};  ///< A sentence about an id that was taken for unlabeled unasked.
 };
 
 void add_view(const ImageView<const std::int32_t>& labels, ViewIndex view, Scribbles& scribbles) {
@@ -127,6 +129,12 @@ ScoredLabels label_scene(const Scene& scene, const Scribbles& scribbles,
   found.scores = judge_labeling(found.segmentation.labeling->labels, scene.light_field->center(),
                                 scene.truth->labels, *scene.truth, disparity.field.get(),
                                 progress.part(0.95, 1));
+  found.notes = stroke_notes(scribbles, scene.truth->labels);
+  if (given)
+    std::ranges::move(fit_of(*given, scene).sentences(better_reading_finding),
+                      std::back_inserter(found.notes));
+  found.notes.push_back(other_numbers_text(found.scores));
+  found.notes.push_back(found.segmentation.labeling->note);
   return found;
 }
 
@@ -157,12 +165,17 @@ FoundLabels label(const py::object& light_field, const py::object& painted,
     return label_scene(*opened.scene, scribbles, parameters, estimate, on, job);
   });
   const bool is_told = ignore || ignored.empty();
-  return {std::move(labels), opened, is_told ? "" : "255 is taken for unlabeled"};
+  if (!is_told) labels.notes.insert(labels.notes.begin(), "255 is taken for unlabeled");
+  std::erase(labels.notes, std::string());
+  return {std::move(labels), opened};
 }
 
 void save_labels(const FoundLabels& found, const py::object& given_path, bool probabilities,
                  bool is_overwriting) {
   const std::filesystem::path path = path_from(given_path);
+  if (map_form_of(path) != MapForm::Result) {
+    throw InvalidInput(path.string() + ": labels are saved as HDF5; let the name end in .h5");
+  }
   const Segmentation& made = found.segmentation;
   check_labeling_output(
       path, {{}, made.parameters, found.of.input, made.reading.options, made.sources_hash},
@@ -171,12 +184,6 @@ void save_labels(const FoundLabels& found, const py::object& given_path, bool pr
   run_job(py::none(), 0, [&](const Progress& job) {
     write_segmentation(path, made, found.of.input, stored, job);
   });
-}
-
-std::vector<std::string> notes_of(const FoundLabels& found) {
-  std::vector notes{found.unlabeled, found.segmentation.labeling->note};
-  std::erase(notes, std::string());
-  return notes;
 }
 
 py::dict label_scores(const FoundLabels& found) {
@@ -203,7 +210,8 @@ void add_labels(py::module_& module) {
       .def_property_readonly("scores", label_scores,
                              R"(Shares in [0, 1] by the keys of 'episcope-cli label --json', such as
 accuracy_all_views; without true labels only consistency along the rays.)")
-      .def_property_readonly("notes", notes_of, "A sentence each.")
+      .def_property_readonly(
+          "notes", [](const FoundLabels& found) { return found.notes; }, "A sentence each.")
       .def("save", save_labels, py::arg("path"), py::kw_only(), py::arg("probabilities") = false,
            py::arg("overwrite") = false,
            R"(save(path, *, probabilities=False, overwrite=False)

@@ -117,12 +117,7 @@ OpenedScene scene_of_array(const py::object& object, const std::string& name,
                            const py::kwargs& reading) {
   const py::array array = in_order(object);
   const auto schema = io::open_schema();
-  ParameterSet given = parameters_from(reading, schema.descriptions());
-  const bool has_axes = std::ranges::any_of(
-      given, [](const auto& one) { return one.first == "axes" || one.first == "grid"; });
-  if (!has_axes && array.ndim() == 5) given.emplace_back("axes", std::string("vuyxc"));
-  if (!has_axes && array.ndim() == 4) given.emplace_back("axes", std::string("vuyx"));
-  const io::OpenOptions options = schema.parse(given);
+  const io::OpenOptions options = schema.parse(parameters_from(reading, schema.descriptions()));
   const FileInMemory file(name, array);
   Scene scene = result_of_job(
       py::none(), 0, [&](const Progress& job) { return io::read_arrays(file, options, job); });
@@ -282,8 +277,9 @@ void add_light_fields(py::module_& module) {
 
 A light field: views on a regular grid of cameras.
 
-array: [v, u, y, x, c], or [v, u, y, x] of gray views; whole numbers or floats. Other orders by the
-option axes, such as axes='yxvuc'. Samples are copied, and checked as those of a file are. reading:
+array: [v, u, y, x, c], or [v, u, y, x] of gray views, or as else open reads it of an .npy file, such
+as a list of views [n, y, x, c]; whole numbers or floats. State the order by the option axes, such as
+axes='yxvuc'. Samples are copied, and checked as those of a file are. reading:
 the options of 'episcope-cli help reading', with _ for -.)");
   light_field.def(py::init(&scene_of_array), py::arg("array"), py::kw_only(),
                   py::arg("name") = "array");

@@ -62,19 +62,84 @@ std::string other_numbers_text(const LabelingScores& scores) {
       100 * *as_numbered, 100 * by_overlap);
 }
 
-std::string unknown_labels_text(const Scribbles& scribbles, const ViewStack<std::int32_t>& truth) {
-  if (truth.empty()) return {};
-  std::vector<int> known, unknown;
+namespace {
+
+/// Below it, labels are of other pixels or other numbers: people paint inside of objects.
+constexpr double kUsuallyRight = 0.9;
+
+/// Share of painted pixels that have their label in `labels_of(view)`; views of none are left out.
+template <class LabelsOf>
+double agreement(const Scribbles& scribbles, const LabelsOf& labels_of) {
+  double painted = 0, right = 0;
+  for (const ViewScribbles& one : scribbles.views) {
+    const ImageView<const std::int32_t> labels = labels_of(one.view);
+    if (labels.height != one.labels.height() || labels.width != one.labels.width()) continue;
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+      if (one.labels.data()[i] <= 0) continue;
+      ++painted;
+      right += labels.data[i] == one.labels.data()[i] ? 1 : 0;
+    }
+  }
+  return painted > 0 ? right / painted : 1;
+}
+
+/// "label 3", "labels 3, 5".
+std::string labels_text(const std::vector<int>& ids) {
+  return (ids.size() == 1 ? "label " : "labels ") +
+         joined(ids, ", ", [](int id) { return std::to_string(id); });
+}
+
+/// Of `ids`, those that `others` lack.
+std::vector<int> missing_ids(std::vector<int> ids, const std::vector<int>& others) {
+  std::erase_if(ids, [&others](int id) { return std::ranges::binary_search(others, id); });
+  return ids;
+}
+
+}  // namespace
+
+std::vector<std::string> stroke_notes(const Scribbles& scribbles,
+                                      const ViewStack<std::int32_t>& truth) {
+  std::vector<std::string> notes;
+  if (truth.empty() || scribbles.empty()) return notes;
+  std::vector<int> known, painted;
   collect_ids({truth.data(), truth.size()}, known);
   for (const ViewScribbles& one : scribbles.views) {
-    collect_ids({one.labels.data(), one.labels.size()}, unknown);
+    collect_ids({one.labels.data(), one.labels.size()}, painted);
   }
-  std::erase_if(unknown, [&known](int id) { return std::ranges::binary_search(known, id); });
-  if (unknown.empty()) return {};
-  const auto text = [](std::int32_t id) { return std::to_string(id); };
-  return "GT_LABELS do not have " + std::string(unknown.size() == 1 ? "label " : "labels ") +
-         joined(unknown, ", ", text) + ", but " + joined(known, ", ", text) +
-         "; pixels of the former count as wrong";
+  if (const auto unknown = missing_ids(painted, known); !unknown.empty()) {
+    notes.push_back("GT_LABELS do not have " + labels_text(unknown) + ", but " +
+                    labels_text(known).substr(labels_text(known).find(' ') + 1) +
+                    "; pixels of the former count as wrong");
+  }
+  if (const auto unpainted = missing_ids(known, painted); !unpainted.empty()) {
+    notes.push_back("nobody painted " + labels_text(unpainted) +
+                    " of GT_LABELS; pixels of it count as wrong");
+  }
+  const double share = agreement(scribbles, [&truth](ViewIndex view) {
+    return truth.contains(view) ? truth.view(view) : ImageView<const std::int32_t>{};
+  });
+  if (share < kUsuallyRight) {
+    notes.push_back(fmt::format(
+        "only {:.2f} % of the painted pixels have that label in GT_LABELS: check the place, "
+        "direction and numbers of the strokes",
+        100 * share));
+  }
+  return notes;
+}
+
+std::string probabilities_note(const LabelProbabilities& probabilities,
+                               const Scribbles& scribbles) {
+  Image<std::int32_t> best;
+  const double share = agreement(scribbles, [&](ViewIndex view) {
+    if (!probabilities.contains(view)) return ImageView<const std::int32_t>{};
+    best = most_probable_labels(probabilities.view(view).view(), probabilities.ids);
+    return std::as_const(best).view();
+  });
+  if (share >= kUsuallyRight) return {};
+  return fmt::format(
+      "only {:.2f} % of the painted pixels have their label as the most probable one: check views, "
+      "direction, sign and labels of the probabilities",
+      100 * share);
 }
 
 Metrics labeling_metrics(const LabelingScores& scores) {

@@ -45,10 +45,16 @@ struct LabelingScores {
 /// strokes whose numbers were chosen anew; else empty.
 [[nodiscard]] std::string other_numbers_text(const LabelingScores& scores);
 
-/// Sentence about painted ids that true labels do not have, which can only be wrong; empty if there
-/// are none, or no truth.
-[[nodiscard]] std::string unknown_labels_text(const Scribbles& scribbles,
-                                              const ViewStack<std::int32_t>& truth);
+/// What speaks against strokes beside true labels, which may be empty, a sentence each: painted ids
+/// that these do not have, true ids that nobody painted, and that few painted pixels have their
+/// true label.
+[[nodiscard]] std::vector<std::string> stroke_notes(const Scribbles& scribbles,
+                                                    const ViewStack<std::int32_t>& truth);
+
+/// Says that few painted pixels have their label as the most probable one, as by probabilities of
+/// other labels, views or pixels; else empty.
+[[nodiscard]] std::string probabilities_note(const LabelProbabilities& probabilities,
+                                             const Scribbles& scribbles);
 
 /// The scores that are known, by key: shares in [0, 1].
 [[nodiscard]] Metrics labeling_metrics(const LabelingScores& scores);

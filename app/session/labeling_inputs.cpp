@@ -59,7 +59,6 @@ LabelingDisparity find_labeling_disparity(const Scene& scene, const LabelerParam
   if (!result_file.empty()) {
     const std::string name = result_file.string();
     Estimate estimate = read_result_of(lf, result_file);
-    check_fits(estimate, lf, name);
     require_all_views(estimate.field, lf, name);
     bring_to_focus(estimate, lf, progress);
     return disparity_of(std::make_shared<const Estimate>(std::move(estimate)), name);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/session/quantity_map.h"
 
+#include "app/session/result_fit.h"
 #include "engine/core/text.h"
 #include "engine/evaluation/label_quality.h"
 #include "engine/labeling/edge_probability.h"
@@ -94,10 +95,29 @@ std::string reason_against_view(const ViewRectangle& covered, ViewIndex view,
                      covered.grid.v, covered.grid.u, view_text(covered.first), view_text(view));
 }
 
+std::string who_of(const Estimate& estimate) {
+  return "the result of " + estimate.method;
+}
+
 std::string reason_against_result(const MapSource& source) {
   const ResultMap& map = result_map_of(source.quantity);
-  return reason_against_view(map.coverage(*source.estimate), source.view,
-                             "the result of " + source.estimate->method, map.what);
+  const std::string who = who_of(*source.estimate);
+  std::string reason =
+      reason_against_view(map.coverage(*source.estimate), source.view, who, map.what);
+  if (!reason.empty() || !source.light_field) return reason;
+  return reason_against_fit(who, geometry_of(source.estimate->field.disparity),
+                            source.light_field->info().name, geometry_of(*source.light_field));
+}
+
+std::string reason_against_pair(const MapSource& source) {
+  std::string reason = reason_against_result(source);
+  if (!reason.empty()) return reason;
+  const ViewStack<float>& other = source.other->field.disparity;
+  const std::string who = who_of(*source.other);
+  reason = reason_against_view(coverage_of(other), source.view, who, "disparity");
+  if (!reason.empty()) return reason;
+  return reason_against_fit(who, geometry_of(other), "that of " + source.estimate->method,
+                            geometry_of(source.estimate->field.disparity));
 }
 
 std::string reason_against_segmentation(const MapSource& source) {
@@ -109,10 +129,12 @@ std::string reason_against_segmentation(const MapSource& source) {
       reason_against_view(coverage_of(labeling.labels), source.view, who, "labels");
   if (!reason.empty() || source.quantity == Quantity::Segmentation) return reason;
   if (source.quantity == Quantity::WrongLabels) {
-    return source.true_labels && source.true_labels->contains(source.view)
-               ? std::string()
-               : source.light_field->info().name + " has no true labels in view " +
-                     view_text(source.view);
+    if (!source.true_labels || !source.true_labels->contains(source.view)) {
+      return source.light_field->info().name + " has no true labels in view " +
+             view_text(source.view);
+    }
+    return reason_against_fit(who, geometry_of(labeling.labels), source.light_field->info().name,
+                              geometry_of(*source.light_field));
   }
   const LabelProbabilities& probabilities = labeling.probabilities;
   if (!probabilities.contains(source.view)) return who + " has no probabilities";
@@ -147,12 +169,8 @@ std::string reason_against(const MapSource& source) {
     case Subject::Result:
     case Subject::Error:
       return reason_against_result(source);
-    case Subject::ResultPair: {
-      std::string reason = reason_against_result(source);
-      if (!reason.empty()) return reason;
-      return reason_against_view(coverage_of(source.other->field.disparity), source.view,
-                                 "the result of " + source.other->method, "disparity");
-    }
+    case Subject::ResultPair:
+      return reason_against_pair(source);
     case Subject::Segmentation:
       return reason_against_segmentation(source);
   }

@@ -2,12 +2,11 @@
 #include "app/session/result_files.h"
 
 #include "app/session/command_line.h"
-#include "app/session/judge.h"
 #include "app/session/load_scene.h"
+#include "app/session/result_fit.h"
 #include "app/session/scene_summary.h"
 #include "engine/core/disparity_field.h"
 #include "engine/core/error.h"
-#include "engine/core/finding.h"
 #include "engine/core/hash.h"
 #include "engine/core/shear.h"
 #include "engine/core/text.h"
@@ -16,7 +15,6 @@
 #include "engine/io/base/hdf5_file.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/base/image_header.h"
-#include "engine/io/base/json.h"
 #include "engine/io/base/npy.h"
 #include "engine/io/formats/array_reader.h"
 #include "engine/io/formats/mosaic_layout.h"
@@ -32,7 +30,6 @@
 #include "engine/render/shade.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <iterator>
@@ -198,6 +195,7 @@ Estimate read_result_of(const LightField& light_field, const fs::path& path,
   remove_padding_of(estimate, light_field);
   require_no_padding(estimate, light_field, path);
   if (!io::is_result_file(path) && estimate.border_px == 0) find_border_of(estimate, light_field);
+  check_fits(estimate, light_field, path.string());
   return estimate;
 }
 
@@ -210,6 +208,7 @@ Estimate result_from_maps(const LightField& light_field, DisparityField maps,
   io::apply_reading(reading, &light_field, estimate);
   remove_padding_of(estimate, light_field);
   if (estimate.border_px == 0) find_border_of(estimate, light_field);
+  check_fits(estimate, light_field, method);
   return estimate;
 }
 
@@ -224,203 +223,12 @@ Estimate read_result_alone(const fs::path& path, const io::MapReading& reading) 
 
 namespace {
 
-/// The view in which a result is compared with truth and views; none if it does not fit.
-std::optional<ViewIndex> compared_view(const Estimate& estimate, const Scene& scene) {
-  const LightField& light_field = *scene.light_field;
-  const ViewStack<float>& maps = estimate.field.disparity;
-  const ViewIndex judged = judged_view(scene);
-  const ViewIndex view = estimate.field.contains(judged) ? judged : maps.first();
-  const bool fits = maps.height() == light_field.height() && maps.width() == light_field.width() &&
-                    light_field.grid().contains(view) && estimate.layered.foreground.empty();
-  return fits ? std::optional(view) : std::nullopt;
-}
-
-}  // namespace
-
-std::optional<io::BetterReading> find_better_reading(const Estimate& estimate, const Scene& scene) {
-  const LightField& light_field = *scene.light_field;
-  const DisparityField& truth = scene.truth->field;
-  const auto view = compared_view(estimate, scene);
-  if (!view) return std::nullopt;
-  const bool has_truth = truth.contains(*view);
-  if (!has_truth && !estimate.version.empty()) return std::nullopt;
-  io::MapEvidence evidence{light_field, *view};
-  if (!has_truth) return io::find_better_reading(estimate.field.view(*view), evidence);
-  const ShownDisparity shown(truth.view(*view), light_field.valid_of(*view));
-  evidence.truth = shown.view();
-  auto better = io::find_better_reading(estimate.field.view(*view), evidence);
-  // This program writes NaN where nothing is known: a value that many pixels have ends its range.
-  const bool is_own = !estimate.version.empty();
-  return better && is_own && !better->reading.missing.empty() ? std::nullopt : std::move(better);
-}
-
-std::vector<std::string> truth_warnings(const ConventionReport& report) {
-  std::vector<std::string> warnings = report.warnings;
-  std::erase_if(warnings, [](const std::string& warning) {
-    const auto finding = finding_of(warning);
-    if (!finding || finding->code == "truth.estimated") return true;  // `judge` says it
-    return !(finding->code.starts_with("truth.") || finding->code.starts_with("map.") ||
-             finding->code.starts_with("depth."));
-  });
-  return warnings;
-}
-
-std::string poor_fit_text(const Estimate& estimate, const Scene& scene) {
-  const auto view = compared_view(estimate, scene);
-  if (!view || !scene.truth->field.contains(*view)) return {};
-  const ShownDisparity shown(scene.truth->field.view(*view), scene.light_field->valid_of(*view));
-  const std::string text = poor_fit_text(estimate.field.view(*view), shown.view());
-  const bool is_own = !text.empty() && estimate.source_hash != 0 &&
-                      !is_of_other_samples(estimate, *scene.light_field);
-  return is_own ? std::string() : text;
-}
-
-std::string poor_fit_text(const DisparityView& map, const DisparityView& truth) {
-  const auto fit = io::find_poor_fit(map, truth);
-  if (!fit) return {};
-  return fmt::format(finding_text("map.poor"), fit->mse_100, fit->constant_mse_100);
-}
-
-namespace {
-
-/// "MSE×100 0.08 instead of 194", "1.9 instead of 6.3 grey levels between views".
-std::string both_numbers(const io::BetterReading& found) {
-  std::string text;
-  if (found.as_read.mse_100 && found.better.mse_100) {
-    text = fmt::format("MSE×100 {:.3g} instead of {:.3g}", *found.better.mse_100,
-                       *found.as_read.mse_100);
-  }
-  if (found.better.grey_levels) {
-    text +=
-        fmt::format("{}{:.3g} instead of {} grey levels between the views",
-                    text.empty() ? "" : ", ", *found.better.grey_levels,
-                    found.as_read.grey_levels ? fmt::format("{:.3g}", *found.as_read.grey_levels)
-                                              : "any number of");
-  }
-  return text;
-}
-
-// Options that read a map so, as on the command line: " --map-transpose --map-scale=0.01".
-std::string map_options_text(const io::MapReading& reading) {
-  return options_text(io::given_options(reading), io::map_schema().descriptions());
-}
-
-}  // namespace
-
-std::string better_reading_finding(const io::BetterReading& found) {
-  const bool is_by_truth = found.as_read.mse_100.has_value();
-  return fmt::format("the map {} far better with {} ({}){}",
-                     is_by_truth ? "fits the ground truth" : "explains the views",
-                     io::reading_text(found.reading), both_numbers(found),
-                     found.is_contradicted() ? ", but the views fit it as it is" : "");
-}
-
-std::string better_reading_text(const io::BetterReading& found) {
-  const char* remedy =
-      found.is_contradicted() ? ": check the ground truth, or add" : "; if it is stored so, add";
-  return better_reading_finding(found) + remedy + map_options_text(found.reading);
-}
-
-namespace {
-
-/// MSE×100 over the pixels that both hold; NaN if there are none.
-double mse_100(const DisparityView& map, const DisparityView& truth) {
-  double sum = 0, count = 0;
-  for (int y = 0; y < truth.disparity.height; ++y) {
-    for (int x = 0; x < truth.disparity.width; ++x) {
-      if (!truth.is_valid(y, x) || !map.is_valid(y, x)) continue;
-      const double error = map.disparity.at(y, x) - truth.disparity.at(y, x);
-      sum += error * error;
-      ++count;
-    }
-  }
-  return 100 * sum / count;
-}
-
-/// Whether maps of all views have rows and columns of views exchanged, by the true view that is
-/// farthest from the diagonal of the grid.
-std::string exchanged_views_text(const Estimate& estimate, const Scene& scene) {
-  constexpr double kFarBetter = 0.5;
-  const DisparityField& maps = estimate.field;
-  const DisparityField& truth = scene.truth->field;
-  if (maps.empty() || !compared_view(estimate, scene)) return {};
-  ViewIndex at;
-  for (int i = 0; i < maps.disparity.grid().count(); ++i) {
-    const ViewIndex view = maps.disparity.view_at(i), other{view.u, view.v};
-    const bool is_farther = std::abs(view.v - view.u) > std::abs(at.v - at.u);
-    if (is_farther && maps.contains(other) && truth.contains(view)) at = view;
-  }
-  if (at.v == at.u) return {};
-  const ViewIndex other{at.u, at.v};
-  const double own = mse_100(maps.view(at), truth.view(at));
-  const double exchanged = mse_100(maps.view(other), truth.view(at));
-  if (!(exchanged < kFarBetter * own)) return {};
-  return fmt::format(finding_text("map.views_exchanged"), view_text(at), own, view_text(other),
-                     exchanged);
-}
-
-}  // namespace
-
-bool is_ground_truth(const Estimate& estimate, const Scene& scene) {
-  const auto view = compared_view(estimate, scene);
-  return estimate.version.empty() && view && scene.truth->field.contains(*view) &&
-         mse_100(estimate.field.view(*view), scene.truth->field.view(*view)) == 0;
-}
-
-std::string doubt_text(const std::optional<io::BetterReading>& better, const Estimate& estimate,
-                       const Scene& scene) {
-  if (std::string text = exchanged_views_text(estimate, scene); !text.empty()) return text;
-  return better ? better_reading_text(*better) : poor_fit_text(estimate, scene);
-}
-
-nlohmann::ordered_json better_reading_json(const io::BetterReading& found) {
-  nlohmann::ordered_json json;
-  json["options"] = map_options_text(found.reading).substr(1);
-  json["reading"] = io::parameters_json(io::given_options(found.reading));
-  const auto add = [&json](const char* key, std::optional<double> value) {
-    if (value) json[key] = *value;
-  };
-  add("mse_100", found.better.mse_100);
-  add("mse_100_as_read", found.as_read.mse_100);
-  add("grey_levels", found.better.grey_levels);
-  add("grey_levels_as_read", found.as_read.grey_levels);
-  return json;
-}
-
-void check_fits(const Estimate& estimate, const LightField& light_field, const std::string& file) {
-  const auto& map = estimate.field.disparity;
-  if (map.height() != light_field.height() || map.width() != light_field.width()) {
-    throw InvalidInput(file + ": the maps have " + size_text(map.width(), map.height()) +
-                       " pixels, but the light field " + light_field.info().name + " has " +
-                       size_text(light_field.width(), light_field.height()) +
-                       "; open the light field that the result belongs to.");
-  }
-  const ViewIndex last{map.first().v + map.grid().v - 1, map.first().u + map.grid().u - 1};
-  if (!light_field.grid().contains(map.first()) || !light_field.grid().contains(last)) {
-    throw InvalidInput(file + ": the maps cover " + size_text(map.grid().v, map.grid().u) +
-                       " views, but the light field " + light_field.info().name + " has " +
-                       size_text(light_field.grid().v, light_field.grid().u) +
-                       "; open the light field that the result belongs to.");
-  }
-}
-
-bool is_of_other_samples(const Estimate& estimate, const LightField& light_field) {
-  return estimate.source_hash != 0 && estimate.source_hash != light_field.sample_hash();
-}
-
-namespace {
-
 IoError contradiction(const std::string& result, const std::string& key,
                       const ParameterValue& given, const ParameterValue* stored) {
   const std::string was =
       stored ? "with" + reading_options_text({{key, *stored}}) : "without --" + key;
   return {result, "was made " + was + ", but" + reading_options_text({{key, given}}) +
                       " was asked for; leave --" + key + " out, or name the file of another run"};
-}
-
-ParameterSet without_focus(ParameterSet options) {
-  std::erase_if(options, [](const auto& option) { return option.first == Reading::kFocus; });
-  return options;
 }
 
 }  // namespace
@@ -452,15 +260,6 @@ void bring_to_focus(Estimate& estimate, const LightField& light_field, const Pro
   // It comes from the same samples if its light field would, at that plane, be this one.
   const std::uint64_t hash = estimate.source_hash == 0 ? 0 : light_field.sample_hash();
   estimate = sheared(estimate, {light_field.center(), hash}, moved_px, progress);
-}
-
-std::string differing_options(const Estimate& estimate, const LightField& light_field) {
-  const Reading& own = estimate.reading;
-  const Reading& other = light_field.info().reading;
-  if (own.reader != other.reader || own.reader.empty()) return {};
-  if (without_focus(own.options) == without_focus(other.options)) return {};
-  const std::string text = reading_options_text(without_focus(own.options));
-  return text.empty() ? "no options" : text;
 }
 
 std::string source_text(const std::string& input, const fs::path& result) {

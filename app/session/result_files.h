@@ -5,10 +5,8 @@
 #include "engine/core/light_field.h"
 #include "engine/core/progress.h"
 #include "engine/core/scene.h"
-#include "engine/io/models/better_reading.h"
+#include "engine/io/models/map_reading.h"
 #include "engine/io/models/open_options.h"
-
-#include <nlohmann/json_fwd.hpp>
 
 #include <filesystem>
 #include <optional>
@@ -32,14 +30,14 @@ namespace episcope {
 /// Reads a result of this light field, as a user says (`reading`) beyond what its file states.
 /// Throws IoError, also for a file that holds a light field or depth, which would else be judged as
 /// disparity, and for maps whose rows and columns are exchanged for those of the views;
-/// InvalidInput as `io::apply_reading`.
+/// InvalidInput as `io::apply_reading`, and if it does not fit (check_fits).
 [[nodiscard]] Estimate read_result_of(const LightField& light_field,
                                       const std::filesystem::path& path,
                                       const io::MapReading& reading = {});
 
 /// Maps of another program as a result of this light field, as if they were read from a file:
 /// values that are not finite become invalid, padding is cut off, and a bare border is not judged.
-/// Throws InvalidInput as `io::apply_reading`.
+/// Throws InvalidInput as `io::apply_reading`, and if they do not fit (check_fits).
 [[nodiscard]] Estimate result_from_maps(const LightField& light_field, DisparityField maps,
                                         const std::string& method,
                                         const io::MapReading& reading = {});
@@ -48,49 +46,6 @@ namespace episcope {
 /// elsewhere becomes view 0,0. Throws IoError, InvalidInput.
 [[nodiscard]] Estimate read_result_alone(const std::filesystem::path& path,
                                          const io::MapReading& reading = {});
-
-/// Looks for a reading by which truth and views explain a result far better
-/// (io::find_better_reading), in the view that is judged or the only one. Without truth, results of
-/// this program are not looked at. Empty if there is none, or the result does not fit.
-[[nodiscard]] std::optional<io::BetterReading> find_better_reading(const Estimate& estimate,
-                                                                   const Scene& scene);
-
-/// Says with both numbers that a result explains little of the truth (io::find_poor_fit), in the
-/// same view: "the map explains little of the ground truth: …"; else empty. Results that were
-/// estimated from the samples of the light field are not doubted. For results that no other reading
-/// explains better.
-[[nodiscard]] std::string poor_fit_text(const Estimate& estimate, const Scene& scene);
-/// Says so of a map of any origin; else empty.
-[[nodiscard]] std::string poor_fit_text(const DisparityView& map, const DisparityView& truth);
-
-/// Whether a map of another program is the ground truth itself, number for number.
-[[nodiscard]] bool is_ground_truth(const Estimate& estimate, const Scene& scene);
-
-/// The warnings of a scene that tell of the truth by which results are judged.
-[[nodiscard]] std::vector<std::string> truth_warnings(const ConventionReport& report);
-
-/// What speaks against a result: that another reading, if one was found, fits far better
-/// (better_reading_text), or else that it explains little of the truth (poor_fit_text); else empty.
-[[nodiscard]] std::string doubt_text(const std::optional<io::BetterReading>& better,
-                                     const Estimate& estimate, const Scene& scene);
-
-/// Says so with both numbers: "the map fits the ground truth far better with rows and columns
-/// exchanged (…)", and whether the views contradict it.
-[[nodiscard]] std::string better_reading_finding(const io::BetterReading& found);
-
-/// The same with the options that apply it: "…; if it is stored so, add --map-transpose".
-[[nodiscard]] std::string better_reading_text(const io::BetterReading& found);
-
-/// Both numbers, as read and by the options that would fit better, as programs read them.
-[[nodiscard]] nlohmann::ordered_json better_reading_json(const io::BetterReading& found);
-
-/// Throws InvalidInput, naming `file`, if an estimate that was read from there has not the size and
-/// views of the light field.
-void check_fits(const Estimate& estimate, const LightField& light_field, const std::string& file);
-
-/// Whether a result says that it was estimated from samples of another light field. Reads all
-/// samples.
-[[nodiscard]] bool is_of_other_samples(const Estimate& estimate, const LightField& light_field);
 
 /// How to read `input`, so that it has the views that a result or labels were made from: what
 /// `given` says and, where that is silent, what their file says of its own light field. The focus
@@ -104,11 +59,6 @@ void check_fits(const Estimate& estimate, const LightField& light_field, const s
 /// Brings a result to the focus plane of the light field, if its file says that it was estimated at
 /// another. Throws Cancelled.
 void bring_to_focus(Estimate& estimate, const LightField& light_field, const Progress& progress);
-
-/// Options by which the light field of a result was read otherwise than this one, as on the command
-/// line ("--flip=u"), the focus plane left aside; empty if there are none, or that is not known.
-[[nodiscard]] std::string differing_options(const Estimate& estimate,
-                                            const LightField& light_field);
 
 /// What a result file says of its light field: a built-in scene as it is typed, else a path
 /// relative to the folder of the result, so that both can move together; absolute only where they

@@ -462,8 +462,9 @@ std::string pose_json(const PoseStory& story, const std::filesystem::path& path)
   return io::json_text(json, 2) + "\n";
 }
 
-void write_pose(const std::filesystem::path& path, const PoseStory& story) {
-  const std::string text = pose_json(story, path);
+void write_pose(const std::filesystem::path& path, const PoseStory& story,
+                const std::filesystem::path& place) {
+  const std::string text = pose_json(story, place.empty() ? path : place);
   io::write_atomically(path, text);
 }
 

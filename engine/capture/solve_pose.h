@@ -67,8 +67,10 @@ struct PoseStory {
 /// outlier, and locked of those that are).
 [[nodiscard]] std::string pose_json(const PoseStory& story, const std::filesystem::path& path);
 
-/// Atomic. Throws IoError.
-void write_pose(const std::filesystem::path& path, const PoseStory& story);
+/// Atomic. The path of the mesh is relative to `place`, where the file is to be; empty = `path`.
+/// Throws IoError.
+void write_pose(const std::filesystem::path& path, const PoseStory& story,
+                const std::filesystem::path& place = {});
 
 /// Reads a pose file. It needs mesh, rotation and translation only; the path of the mesh is
 /// relative to the file. Throws IoError that names what is missing or wrong.

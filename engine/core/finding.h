@@ -360,11 +360,10 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
      "constant "
      "map; check its scale, units and view"},
     {"map.views_exchanged",
-     "Rows and columns of views seem to be exchanged in these maps: against the ground truth of "
-     "view {}, "
-     "the map of that view has MSE×100 {:.3g}, that of view {} {:.3g}. Exchange the first two axes "
-     "of the array.",
-     "Rows and columns of views seem to be exchanged."},
+     "The views of these maps seem to be stored in another order, {}: against the ground truth, "
+     "MSE×100 "
+     "is {:.3g} so and {:.3g} as read. Put the first two axes of the array in order.",
+     "The maps seem to be of other views: %1."},
     {"map.masked", "{} leaves out {:.1f} % of the ground truth.",
      "%1 leaves out %2 % of the ground truth."},
     {"map.row_by_row", "The {} maps of {} are taken for those of the views, row by row.",

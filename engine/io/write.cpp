@@ -135,6 +135,7 @@ constexpr FormContents kArchive{.floats = FloatsHeld::Exactly,
                                 .has_positions = true};
 constexpr FormContents kBenchmark{.floats = FloatsHeld::Rounded,
                                   .disparity = MapsHeld::All,
+                                  .has_origin = true,
                                   .labels = MapsHeld::Center,
                                   .has_regions = true,
                                   .camera = CamerasHeld::Converging,

@@ -3348,8 +3348,12 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Jede zweite %1 von Ansichten scheint umgekehrt zu sein.</translation>
     </message>
     <message>
-        <source>Rows and columns of views seem to be exchanged.</source>
-        <translation>Zeilen und Spalten der Ansichten scheinen vertauscht zu sein.</translation>
+        <source>The views of these maps seem to be stored in another order, %1: against the ground truth, MSE×100 is %2 so and %3 as read. Put the first two axes of the array in order.</source>
+        <translation>Die Ansichten dieser Karten scheinen in anderer Reihenfolge gespeichert zu sein, %1: Gegen die wahre Disparität ist MSE×100 so %2 und wie gelesen %3. Ordnen Sie die ersten beiden Achsen des Arrays.</translation>
+    </message>
+    <message>
+        <source>The maps seem to be of other views: %1.</source>
+        <translation>Die Karten scheinen zu anderen Ansichten zu gehören: %1.</translation>
     </message>
     <message>
         <source>Rows of cameras are %1 times as far apart as columns.</source>

@@ -355,11 +355,16 @@ void submit_unfinished(const BenchmarkPlan& plan, const BenchmarkRequest& reques
 }
 
 /// Strokes that were named for this scene replace those beside it.
-void take_scribbles(const BenchmarkRequest& request, Scene& scene, const Progress& progress) {
+void take_scribbles(const BenchmarkRequest& request, Scene& scene, Job& job,
+                    const Progress& progress) {
   if (!request.scribbles) return;
   const fs::path name = fs::path(scene.light_field->info().name + ".h5").filename();
   const fs::path file = fs::path(*request.scribbles) / name;
-  if (io::is_there(file)) scene.scribbles = io::read_scribbles(file, scene, progress);
+  if (io::is_there(file)) {
+    scene.scribbles = io::read_scribbles(file, scene, progress);
+  } else if (!scene.scribbles.empty()) {
+    job.note(file.string() + " is not there; the scribbles beside the light field are used");
+  }
 }
 
 /// What opens the light fields that the INPUTs of a benchmark stand for.
@@ -380,7 +385,7 @@ SceneLoader scene_loader(const BenchmarkRequest& request, Job& job) {
   return [&request, &job](const std::string& input, const Progress& progress) {
     Scene scene = load_input(input, request.read, progress);
     for (const auto& warning : scene.convention.warnings) job.note(warning);
-    take_scribbles(request, scene, progress.part(1, 1));
+    take_scribbles(request, scene, job, progress.part(1, 1));
     return scene;
   };
 }
@@ -490,10 +495,20 @@ void print_status(const PlannedBenchmark& planned, const BenchmarkRequest& reque
   for (const std::string& failure : status.failures) std::cout << "failed: " << failure << '\n';
 }
 
+/// Throws if maps were to be judged and none was.
+void require_judged_maps(const BenchmarkReport& report) {
+  std::string problem;
+  for (const BenchmarkResult& result : report.results) {
+    if (result.is_foreign && result.problem.empty()) return;
+    if (result.is_foreign) problem = result.entry + " on " + result.scene + ": " + result.problem;
+  }
+  if (!problem.empty()) throw Error("none of the maps could be judged; " + problem);
+}
+
 /// A sentence for the exit code, if anything failed.
 void require_success(const BenchmarkReport& report, const std::string& folder) {
   const auto failures = report.failures();
-  if (failures.empty()) return;
+  if (failures.empty()) return require_judged_maps(report);
   const std::string more =
       failures.size() == 1 ? "" : fmt::format(" (and {} more)", failures.size() - 1);
   std::string first = failures.front();

@@ -21,6 +21,7 @@ struct CalibrateRequest {
   Extent size;
   capture::Pattern pattern;
   std::string output;
+  Overwrite overwrite = Overwrite::No;
   bool is_json = false;
   JobOptions job;
 };
@@ -44,6 +45,8 @@ bool parse(const VerbArguments& arguments, CalibrateRequest& request) {
                 "Distance of neighboring points (default 1); the camera does not depend on it");
   parser.required_option("-o,--output", request.output, text_value("CAMERA.yml"),
                          "Camera to write");
+  parser.flag("--overwrite", request.overwrite, Overwrite::Yes,
+              "Replace a file that holds anything but this camera");
   parser.flag("--json", request.is_json, "Print one JSON object instead of a table");
   declare_job_options(parser, request.job);
   if (!parser.parse(arguments)) return false;
@@ -107,7 +110,9 @@ void run_calibrate(const VerbArguments& arguments, std::stop_token stop) {
   Job job(std::move(stop), request.job);
   const capture::Calibration calibration = capture::calibrate(
       {request.photographs.begin(), request.photographs.end()}, request.pattern, job.progress());
-  capture::write_camera(request.output, calibration.camera);
+  write_output(request.output, request.overwrite, [&](const std::filesystem::path& path) {
+    capture::write_camera(path, calibration.camera);
+  });
   job.finish();
   if (request.is_json) {
     return print_answer(answer(calibration, request.output), job.notes(), {request.output});

@@ -7,7 +7,9 @@
 #include "app/cli/streams.h"
 #include "app/cli/verbs/verbs.h"
 #include "app/session/command_line.h"
+#include "app/session/load_scene.h"
 #include "app/session/result_files.h"
+#include "app/session/result_fit.h"
 #include "app/session/segmentation.h"
 #include "engine/core/text.h"
 #include "engine/io/base/files.h"
@@ -172,6 +174,13 @@ struct ConvertSubject {
   }
 };
 
+/// The INPUT that a result was estimated from, which need not be the one whose truth it becomes.
+std::string source_of(const Estimate& estimate, const ConvertRequest& request) {
+  const std::string& stated = estimate.source;
+  if (stated.empty()) return request.truth;
+  return builtin_scene_id(stated).empty() ? absolute_path(stated, request.input) : stated;
+}
+
 ConvertSubject load_subject(const ConvertRequest& request, const Target& target,
                             const Progress& progress) {
   ConvertSubject subject;
@@ -192,10 +201,11 @@ ConvertSubject load_subject(const ConvertRequest& request, const Target& target,
       subject.scene = load_input_of(reading_of(request.input), source, request.read, progress);
     }
   } else {
-    subject.source = request.truth;
     subject.scene = load_input_of(reading_of(request.input), request.truth, request.read, progress);
     subject.estimate = read_result_of(*subject.scene->light_field, request.input, reading);
+    subject.source = source_of(*subject.estimate, request);
   }
+  if (subject.scene) check_fits(*subject.estimate, *subject.scene->light_field, request.input);
   if (target.needs_scene() && !subject.scene) {
     const std::string& named = subject.estimate->source;
     constexpr const char* kRemedy = "; name it with --truth INPUT";
@@ -247,6 +257,10 @@ ViewStack<std::int32_t> given_labels(Scene& scene, const ConvertRequest& request
   if (request.labels.file.empty()) return {};
   const LightField& field = *scene.light_field;
   Scribbles labels = load_labels(request.labels, scene, job, progress);
+  if (io::is_segmentation_file(request.labels.file)) {
+    job.note(request.labels.file + " holds computed labels, which read as ground truth in " +
+             request.output);
+  }
   auto maps = io::stack_of(labels, {field.grid(), field.height(), field.width()});
   if (!labels.labels.empty()) scene.scribbles.labels = std::move(labels.labels);
   return maps;
@@ -378,11 +392,9 @@ void write_segmented(const ConvertRequest& request, io::LabelForm form, const Pr
   if (!request.truth.empty()) {
     const Scene scene = load_input_of({request.input, file.reading()}, request.truth, request.read,
                                       progress.part(0.2, 0.4));
+    check_fits(source.maps, *scene.light_field, request.input);
     source.pictures = scene.light_field;
     source.places = io::label_places(scene);
-    for (int i = 0; i < source.maps.grid().count(); ++i) {
-      (void)view_of(*source.pictures, source.maps.view_at(i));
-    }
   }
   io::write_label_folder(request.output, form, source, progress.part(0.4, 1));
 }
@@ -437,6 +449,7 @@ void write_labels_of_scene(const ConvertRequest& request, io::LabelForm form, Jo
   ConvertSubject subject = load_subject(request, target, progress.part(0, 0.5));
   if (subject.scene) {
     for (const auto& warning : subject.scene->convention.warnings) job.note(warning);
+    if (subject.estimate) note_fit(request.input, *subject.estimate, *subject.scene, job);
   }
   note_forgotten_options(subject, request, target, job);
   if (request.values == io::MapValues::Depth) turn_into_depth(subject, request.input);

@@ -255,7 +255,11 @@ class Runner {
   void check(const Task& task) const {
     const bool is_map = request_.is_submission || map_form(task.output);
     if (!is_map) {
-      check_hdf5_output("estimate", task.output);
+      check_output_file(task.output);
+      if (map_form_of(task.output) != MapForm::Result) {
+        throw UsageError("estimate writes a result file, .h5, or a map, but the output is " +
+                         task.output + "; name it OUT.h5, OUT.npy or OUT.pfm");
+      }
       check_result_output(task.output,
                           {.method = request_.estimator->info.id,
                            .parameters = request_.parameters.values(),

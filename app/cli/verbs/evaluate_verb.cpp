@@ -6,6 +6,7 @@
 #include "app/cli/verbs/verbs.h"
 #include "app/session/picture.h"
 #include "app/session/result_files.h"
+#include "app/session/result_fit.h"
 #include "app/session/user_folders.h"
 #include "engine/core/error.h"
 #include "engine/core/text.h"
@@ -512,7 +513,7 @@ class Judge {
     place_foreign_map(view, *estimate);
     require_own_samples(file, *estimate, light_field);
     const EvaluationPtr evaluation = evaluation_of(file, *estimate, scene, view);
-    if (!file.is_own) note_other_source(*estimate, light_field, job_);
+    const ResultFit fit = fit_of(*estimate, scene);
     Row row{.file = file.result,
             .truth = file.truth,
             .truth_units = scene.convention.units,
@@ -521,15 +522,11 @@ class Judge {
             .has_all_views = estimate->field.disparity.grid() == light_field.grid(),
             .view = view,
             .metrics = chosen(evaluation->metrics, request_.metrics),
-            .notes = evaluation->notes,
-            .better = find_better_reading(*estimate, scene),
+            .notes = fit.sentences(),
+            .better = fit.better,
             .error_map = error_map.string()};
     know_keys(evaluation->metrics);
-    if (!io::is_result_file(file.result)) {
-      row.notes.insert(row.notes.begin(), estimate->notes.begin(), estimate->notes.end());
-    }
-    const std::string doubt = doubt_text(row.better, *estimate, scene);
-    if (!doubt.empty()) row.notes.push_back(doubt);
+    std::ranges::copy(evaluation->notes, std::back_inserter(row.notes));
     for (const std::string& sentence : row.notes) job_.note(file.result + ": " + sentence);
     for (std::string& warning : truth_warnings(scene.convention)) {
       if (told_.insert(file.truth + warning).second) job_.note(file.truth + ": " + warning);

@@ -9,12 +9,15 @@
 #include "engine/capture/solve_pose.h"
 #include "engine/capture/view_surface.h"
 #include "engine/core/error.h"
+#include "engine/core/text.h"
 #include "engine/io/formats/write_scene.h"
+#include "engine/io/models/order/order_check.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iostream>
 #include <list>
@@ -61,7 +64,8 @@ bool parse(const VerbArguments& arguments, RectifyRequest& request) {
   parser.option("--pairs", request.pairs, text_value("PAIRS.csv"),
                 "File for the transferred picks, in pixels of the rectified center view");
   parser.flag("--json", request.is_json, "Print one JSON object instead of text");
-  parser.flag("--overwrite", request.overwrite, Overwrite::Yes, "Replace an existing light field");
+  parser.flag("--overwrite", request.overwrite, Overwrite::Yes,
+              "Replace an existing light field, and other pairs");
   request.read.needs_truth = false;
   if (!parse_reading(parser, arguments, request.job, request.read)) return false;
   if (request.picks.empty() != request.pairs.empty()) {
@@ -135,7 +139,10 @@ void run_rectify(const VerbArguments& arguments, std::stop_token stop) {
                                              job.progress().part(0.2, 1));
   const std::vector<capture::PointPair>& pairs = made.work.objects[0].pairs;
   const capture::Rectified& rectified = made.rectified;
-  if (!pairs.empty()) capture::write_pairs(request.pairs, pairs);
+  if (!pairs.empty()) {
+    write_output(request.pairs, request.overwrite,
+                 [&](const std::filesystem::path& path) { capture::write_pairs(path, pairs); });
+  }
   job.finish();
   if (request.is_json) {
     Json json = answer(rectified, request.output);
@@ -153,6 +160,7 @@ struct PoseRequest {
   std::string mesh;
   std::string pairs;
   std::string output;
+  Overwrite overwrite = Overwrite::No;
   bool is_json = false;
   JobOptions job;
   ReadOptions read;
@@ -171,6 +179,8 @@ bool parse(const VerbArguments& arguments, PoseRequest& request) {
   parser.required_option("--mesh", request.mesh, text_value("MESH"), "Mesh as PLY, OBJ or STL");
   parser.required_option("--pairs", request.pairs, text_value("PAIRS.csv"), "The pairs");
   parser.required_option("-o,--output", request.output, text_value("POSE.json"), "Pose to write");
+  parser.flag("--overwrite", request.overwrite, Overwrite::Yes,
+              "Replace a file that holds anything but this pose");
   parser.flag("--json", request.is_json, "Print one JSON object instead of a table");
   request.read.needs_truth = false;
   return parse_reading(parser, arguments, request.job, request.read);
@@ -194,6 +204,46 @@ Json answer(const capture::PoseStory& story, const std::string& output) {
       std::vector<double>(solved.pose.translation.begin(), solved.pose.translation.end());
   json["output"] = output;
   return json;
+}
+
+/// Names of pairs whose points are far outside of the mesh.
+std::vector<std::string> pairs_off(const capture::TriangleMesh& mesh,
+                                   const std::vector<capture::PointPair>& pairs) {
+  constexpr double kFar = 0.02;  // of the diagonal of the mesh
+  capture::Vertex low = mesh.vertices.front(), high = low;
+  for (const capture::Vertex& vertex : mesh.vertices) {
+    for (std::size_t axis = 0; axis < vertex.size(); ++axis) {
+      low[axis] = std::min(low[axis], vertex[axis]);
+      high[axis] = std::max(high[axis], vertex[axis]);
+    }
+  }
+  const double margin = kFar * std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+  std::vector<std::string> names;
+  for (const capture::PointPair& pair : pairs) {
+    const std::array<double, 3> point{pair.point.x, pair.point.y, pair.point.z};
+    bool is_off = false;
+    for (std::size_t axis = 0; axis < point.size(); ++axis) {
+      is_off = is_off || point[axis] < low[axis] - margin || point[axis] > high[axis] + margin;
+    }
+    if (is_off) names.push_back(pair.name);
+  }
+  return names;
+}
+
+void note_doubts(const std::string& pose, const capture::PoseStory& story,
+                 const capture::TriangleMesh& mesh, const LightField& field, Job& job) {
+  constexpr double kLargeError = 0.005;  // of the diagonal of a view: 2 px of 320×240
+  const double error_px = story.solved.reprojection_error_px;
+  if (error_px > kLargeError * std::hypot(field.width(), field.height())) {
+    job.note(fmt::format(
+        "{}: the pairs are off by {:.1f} px on average: the pose is not to be trusted; check the "
+        "picks, the order of their columns, and that they are of this light field and mesh",
+        pose, error_px));
+  }
+  const std::vector<std::string> off = pairs_off(mesh, story.pairs);
+  if (off.empty()) return;
+  job.note(pose + ": the points of " + joined(off, ", ") +
+           " lie outside of the mesh; pick them on its surface, in its unit");
 }
 
 void print(const capture::PoseStory& story, const std::string& output) {
@@ -235,10 +285,12 @@ void run_pose(const VerbArguments& arguments, std::stop_token stop) {
                   "the pinhole of this light field (focal length and center in px) is not known; "
                   "make the light field with episcope-cli rectify");
   }
-  // Read for its errors alone: a mesh that cannot be used is told now, not by the next step.
-  (void)capture::read_mesh(request.mesh, job.progress().part(0.5, 1));
+  const capture::TriangleMesh mesh = capture::read_mesh(request.mesh, job.progress().part(0.5, 1));
   story.solved = capture::solve_pose(story.pairs, story.camera);
-  capture::write_pose(request.output, story);
+  note_doubts(request.output, story, mesh, *scene.light_field, job);
+  write_output(request.output, request.overwrite, [&](const std::filesystem::path& path) {
+    capture::write_pose(path, story, request.output);
+  });
   job.finish();
   if (request.is_json) {
     return print_answer(answer(story, request.output), job.notes(), {request.output});
@@ -284,17 +336,28 @@ bool parse(const VerbArguments& arguments, GroundTruthRequest& request) {
   return parse_reading(parser, arguments, request.job, request.read);
 }
 
-GroundTruth truth_of(const GroundTruthRequest& request, Scene& scene, const Progress& progress) {
+GroundTruth truth_of(const GroundTruthRequest& request, const Scene& scene, Job& job) {
+  const Progress progress = job.progress().part(0.05, 0.9);
+  const LightField& field = *scene.light_field;
   std::list<capture::TriangleMesh> meshes;
   std::vector<capture::PlacedMesh> placed;
   for (const std::string& file : request.poses) {
     const capture::PoseStory story = capture::read_pose(file);
     meshes.push_back(capture::read_mesh(story.mesh, progress.part(0, 0.1)));
     placed.push_back({&meshes.back(), story.solved.pose});
+    note_doubts(file, story, meshes.back(), field, job);
   }
-  const LightField& field = *scene.light_field;
   const capture::DepthGrid grid{field.grid(), field.height(), field.width(), field.info().camera};
   return capture::visible_depth(placed, grid, request.depth, progress.part(0.1, 1));
+}
+
+/// The views are in order: they tell whether the truth is right.
+void note_contradictions(const Scene& scene, Job& job) {
+  const LightField& field = *scene.light_field;
+  const io::OrderFinding found =
+      io::find_order(field.samples(), {{field.center(), scene.truth->field.view(field.center())}},
+                     {}, io::Flip::None, Progress());
+  for (const std::string& warning : found.warnings) job.note(warning);
 }
 
 LightFieldPtr with_step(const LightFieldPtr& field, double step) {
@@ -350,8 +413,8 @@ void run_ground_truth(const VerbArguments& arguments, std::stop_token stop) {
   Scene scene = load_input(request.input, request.read, job.progress().part(0, 0.05));
   for (const auto& warning : scene.convention.warnings) job.note(warning);
   if (request.step) scene.light_field = with_step(scene.light_field, *request.step);
-  scene.truth =
-      std::make_shared<GroundTruth>(truth_of(request, scene, job.progress().part(0.05, 0.9)));
+  scene.truth = std::make_shared<GroundTruth>(truth_of(request, scene, job));
+  note_contradictions(scene, job);
   const std::filesystem::path labels = io::labels_place(request.output, scene);
   io::write_archive(request.output, scene, job.progress().part(0.9, 1));
   job.finish();

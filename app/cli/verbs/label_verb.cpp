@@ -177,11 +177,14 @@ GivenSources load_sources(const LabelRequest& request, Scene& scene, Job& job) {
   if (!request.disparity.empty()) {
     given.disparity = find_labeling_disparity(scene, request.parameters, request.disparity,
                                               progress.part(0.1, 0.15));
-    note_other_source(*given.disparity.estimate, *scene.light_field, job);
+    note_fit(request.disparity, *given.disparity.estimate, scene, job,
+             " to convert, and give what that writes");
   }
   if (!request.given.empty()) {
     given.probabilities =
         read_all_probabilities(request.given, scene, given.scribbles, progress.part(0.15, 0.2));
+    const std::string doubt = probabilities_note(*given.probabilities, given.scribbles);
+    if (!doubt.empty()) job.note(request.given + ": " + doubt);
   }
   given.hash =
       hash_of(LabelSources{.strokes = given.scribbles,
@@ -333,8 +336,7 @@ void run_label(const VerbArguments& arguments, std::stop_token stop) {
   for (const auto& warning : scene.convention.warnings) job.note(warning);
   GivenSources given = load_sources(request, scene, job);
   check_replaced(request, given.hash);
-  const std::string unknown = unknown_labels_text(given.scribbles, scene.truth->labels);
-  if (!unknown.empty()) job.note(unknown);
+  for (const std::string& note : stroke_notes(given.scribbles, scene.truth->labels)) job.note(note);
   const ComputedLabels computed = compute_labels(scene, given, request, progress.part(0.1, 0.95));
   const Labeling& labeling = *computed.labeling;
   if (!labeling.note.empty()) job.note(labeling.note);

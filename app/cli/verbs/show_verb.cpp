@@ -9,6 +9,7 @@
 #include "app/session/project_file.h"
 #include "app/session/quantity_map.h"
 #include "app/session/result_files.h"
+#include "app/session/result_fit.h"
 #include "app/session/scene_summary.h"
 #include "app/session/segmentation.h"
 #include "engine/core/error.h"
@@ -170,6 +171,11 @@ void load_light_field(const ShownMap& shown, const ReadOptions& read, LoadedMap&
 void load_other(const ShownMap& shown, const Estimate& first, LoadedMap& loaded, Job& job) {
   Estimate other = read_result_alone(shown.minus);
   note_other_options({shown.subject, first.reading}, {shown.minus, other.reading}, job);
+  const bool tells_samples = first.source_hash != 0 && other.source_hash != 0;
+  if (tells_samples && first.source_hash != other.source_hash &&
+      first.reading.focus_px() == other.reading.focus_px()) {
+    job.note(shown.minus + ": it was estimated from other samples than " + shown.subject);
+  }
   if (loaded.source.light_field) {
     bring_to_focus(other, *loaded.source.light_field, job.progress());
   }
@@ -204,9 +210,8 @@ void load_result(const ShownMap& shown, const ReadOptions& read, LoadedMap& load
                                                ? judged_view(*scene)
                                                : middle_of(estimate->field.disparity));
   if (scene) {
-    note_other_source(*estimate, *scene->light_field, job);
-    const std::string doubt = doubt_text(find_better_reading(*estimate, *scene), *estimate, *scene);
-    if (!doubt.empty()) job.note(shown.subject + ": " + doubt);
+    check_fits(*estimate, *scene->light_field, shown.subject);
+    note_fit(shown.subject, *estimate, *scene, job);
     if (!shown.truth.empty()) note_doubts_of_truth(shown.truth, *scene, job);
     take_scene(shown, std::move(*scene), loaded);
   }

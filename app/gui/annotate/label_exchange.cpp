@@ -256,8 +256,8 @@ void LabelImporter::read(const QStringList& paths,
         const std::string renumbered =
             io::renumber_labels(labels->scribbles, LabelSet::kMaxId, {known.begin(), known.end()});
         if (!renumbered.empty()) labels->notes.push_back(renumbered);
-        const std::string unknown = unknown_labels_text(labels->scribbles, scene->truth->labels);
-        if (!unknown.empty()) labels->notes.push_back(unknown);
+        std::ranges::move(stroke_notes(labels->scribbles, scene->truth->labels),
+                          std::back_inserter(labels->notes));
         return labels;
       },
       [this, paths, generation = session_.generation()](const Read& labels) {

@@ -5,6 +5,7 @@
 #include "app/gui/shell/jobs.h"
 #include "app/session/load_scene.h"
 #include "app/session/result_files.h"
+#include "app/session/result_fit.h"
 #include "app/session/run_estimator.h"
 #include "app/session/scene_summary.h"
 #include "engine/core/error.h"
@@ -127,7 +128,6 @@ SceneSwitcher::Read SceneSwitcher::read_all(const OpenScene& scene,
     try {
       auto estimate =
           std::make_shared<const Estimate>(read_result_of(*read.scene->light_field, entry.kept));
-      check_fits(*estimate, *read.scene->light_field, entry.kept.string());
       read.estimates[entry.id] = std::move(estimate);
     } catch (const Error& error) {
       read.failures << QString::fromUtf8(error.what());
@@ -209,7 +209,6 @@ ReadEstimate read_estimate(const Scene& scene, const std::string& path,
   const FileStamp stamp = stamp_of(path);
   auto estimate = std::make_shared<Estimate>(read_result_of(light_field, path, reading));
   progress.check();
-  check_fits(*estimate, light_field, path);
   const bool is_of_others = is_of_other_samples(*estimate, light_field);
   const bool is_moved = estimate->reading.focus_px() != light_field.info().reading.focus_px();
   bring_to_focus(*estimate, light_field, progress);
@@ -218,7 +217,7 @@ ReadEstimate read_estimate(const Scene& scene, const std::string& path,
   std::string options = differing_options(*estimate, light_field);
   std::optional<io::BetterReading> better;
   if (reading == io::MapReading()) better = find_better_reading(*estimate, scene);
-  std::string poor_fit = better ? std::string() : poor_fit_text(*estimate, scene);
+  std::string poor_fit = better ? std::string() : doubt_text(*estimate, scene);
   return {
       {std::move(estimate), range}, is_truth, is_of_others && !is_moved, std::move(options), better,
       std::move(poor_fit),          stamp};

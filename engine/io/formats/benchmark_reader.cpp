@@ -10,6 +10,7 @@
 #include "engine/io/base/sample_range.h"
 #include "engine/io/formats/benchmark_truth.h"
 #include "engine/io/formats/image_grid.h"
+#include "engine/io/formats/write_scene.h"
 #include "engine/io/models/assemble_scene.h"
 #include "engine/io/models/load_views.h"
 #include "engine/io/models/names/view_files.h"
@@ -435,9 +436,20 @@ class BenchmarkReading {
     }
     correct_promise(truth_.field, info_.disparity_range, report_);
     if (!options_.needs_truth) return;
+    tell_estimated();
     read_benchmark_masks(folder_, beside_views, notes, truth_);
     const auto stated = config_ ? config_->text("scene") : std::nullopt;
     truth_.stratified = stratified_scene(stated.value_or(info_.name));
+  }
+  /// What convert wrote in the place of truth says so.
+  void tell_estimated() {
+    const auto method = config_ ? config_->text(kEstimatedBy) : std::nullopt;
+    if (!method || !truth_.has_disparity()) return;
+    Provenance& estimated = truth_.estimated.emplace();
+    estimated.method = *method;
+    estimated.source = config_->text(kEstimatedFrom).value_or("");
+    report_.warnings.push_back(
+        fmt::format(finding_text("truth.estimated"), estimated_text(estimated)));
   }
   void assemble_scene(const Progress& progress) {
     SceneParts parts;

@@ -13,6 +13,8 @@
 #include "engine/io/models/scribble_file.h"
 #include "engine/io/models/stored_maps.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -313,6 +315,13 @@ void write_stated(Hdf5Output& file, const StatedFacts& stated) {
   }
 }
 
+void require_size(const DisparityField& field, const LightField& views) {
+  const ViewStack<float>& maps = field.disparity;
+  if (maps.empty() || (maps.height() == views.height() && maps.width() == views.width())) return;
+  throw InvalidInput(fmt::format("the truth has {}×{} px, but the views have {}×{} px",
+                                 maps.width(), maps.height(), views.width(), views.height()));
+}
+
 // All layers as depth, and as disparity if that is wanted.
 void write_truth(Hdf5Output& file, const Scene& scene, const CameraGrid& camera, bool has_disparity,
                  const Progress& progress) {
@@ -322,6 +331,7 @@ void write_truth(Hdf5Output& file, const Scene& scene, const CameraGrid& camera,
   double done = 0;
   for (const auto& [layer, field] : fields) {
     progress.check();
+    require_size(*field, *scene.light_field);
     const std::string depth = std::string(kTrueDepth) + layer;
     const std::string disparity = std::string(kTrueDisparity) + layer;
     write_depth(file, depth, *field, scene, camera, progress.part(done, done + 0.25));
@@ -427,7 +437,8 @@ void write_disparity_pfm(const fs::path& path, const DisparityView& map) {
 }
 
 /// Parameters whose camera has the same B·f and shift; depth is in mm, as the benchmark has it.
-std::string config_text(const LightField& field) {
+std::string config_text(const Scene& scene) {
+  const LightField& field = *scene.light_field;
   constexpr double kFocalLengthMm = 100;
   constexpr double kSensorMm = 35;
   const CameraGrid& camera = field.info().camera;
@@ -453,6 +464,10 @@ std::string config_text(const LightField& field) {
   if (field.info().disparity_range) {
     text << "disp_min = " << field.info().disparity_range->min
          << "\ndisp_max = " << field.info().disparity_range->max << "\n";
+  }
+  if (const auto& estimated = scene.truth->estimated) {
+    text << kEstimatedBy << " = " << estimated->method << "\n"
+         << kEstimatedFrom << " = " << estimated->source << "\n";
   }
   return text.str();
 }
@@ -499,7 +514,7 @@ void write_benchmark_folder(const fs::path& folder, const Scene& scene, const Pr
     const ViewIndex view = field.grid().view_at(i);
     write_benchmark_view(target.temporary() / view_file_name(i), field, view);
   });
-  const std::string config = config_text(field);
+  const std::string config = config_text(scene);
   write_atomically(target.temporary() / kBenchmarkConfig,
                    {reinterpret_cast<const std::uint8_t*>(config.data()), config.size()});
   write_truth(target.temporary(), scene);

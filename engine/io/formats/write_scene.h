@@ -56,6 +56,8 @@ inline constexpr const char* kPositionUnit = "camera_position_unit";
 inline constexpr const char* kEstimatedBy = "estimated_by";
 inline constexpr const char* kEstimateParameters = "parameters";
 inline constexpr const char* kEstimateSource = "source";
+/// The source in parameters of the benchmark form.
+inline constexpr const char* kEstimatedFrom = "estimated_from";
 inline constexpr const char* kEstimateVersion = "version";
 /// Datasets of depth, `[v][h][y][x]` or, of the center view alone, `[y][x]`; names of layers begin
 /// so. Those of disparity have the same shape, and the same names but for the beginning.

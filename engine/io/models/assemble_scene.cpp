@@ -76,9 +76,10 @@ void check_line(const SceneParts& parts, ConventionReport& report, const Progres
 }
 
 /// The truth of one view: the disparity, or the two layers of a transparent scene. A disparity is
-/// put upright first.
+/// put upright first. What was estimated is no evidence.
 std::vector<OrderEvidence> evidence_of(SceneParts& parts, ConventionReport& report) {
   GroundTruth& truth = parts.truth;
+  if (truth.estimated) return {};
   const UprightTruth upright = put_truth_upright(parts.samples, truth.field);
   if (!upright.undone.empty()) report.warnings.push_back(turned_back_text(upright.undone));
   std::vector<OrderEvidence> found;

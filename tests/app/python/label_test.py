@@ -73,6 +73,20 @@ def test_labels_are_saved_and_replace_nothing_else(strokes, labeling, tmp_path):
         labeling.save(tmp_path / "other.h5")
 
 
+def test_what_contradicts_is_told(scene, strokes):
+    others = episcope.label(scene, 85 * strokes, features="image", trees=4).notes
+    assert any("GT_LABELS do not have label" in note for note in others)
+    assert any("once labels are matched by overlap" in note for note in others)
+    given = episcope.estimate(episcope.demo("bars?size=64&grid=5"), "epi_l")
+    notes = episcope.label(scene, strokes, disparity=given, trees=4).notes
+    assert any("estimated from other samples" in note for note in notes)
+
+
+def test_labels_are_no_other_form(labeling, tmp_path):
+    with pytest.raises(episcope.InvalidInput, match="labels are saved as HDF5; let the name end in .h5"):
+        labeling.save(tmp_path / "labels.npy")
+
+
 def test_ids_beyond_32_bits_are_refused(scene, strokes):
     with pytest.raises(episcope.InvalidInput, match="at most 2147483646"):
         episcope.label(scene, numpy.where(strokes > 0, strokes.astype("int64") + 2**32, 0), trees=16)

@@ -71,6 +71,15 @@ def test_gray_array_has_one_channel(scene):
     assert episcope.LightField(scene.views[..., 1]).views.shape == (5, 5, 64, 64, 1)
 
 
+def test_list_of_colored_views_is_read_as_its_file(scene, tmp_path):
+    given = scene.views.reshape(25, 64, 64, 3)
+    numpy.save(tmp_path / "list.npy", given)
+    assert episcope.open(tmp_path / "list.npy").views.shape == (5, 5, 64, 64, 3)
+    assert numpy.array_equal(episcope.LightField(given).views, scene.views)
+    moved = numpy.transpose(scene.views, (2, 3, 0, 1, 4))
+    assert episcope.LightField(moved).views.shape == (5, 5, 64, 64, 3)
+
+
 def test_array_is_copied(scene):
     given = scene.views.copy()
     opened = episcope.LightField(given)

@@ -107,6 +107,20 @@ def test_array_of_all_views_is_judged_in_the_center(scene, result):
     assert whole["all_views"]
 
 
+def test_what_does_not_fit_is_told_as_by_the_command_line(scene, result):
+    swapped = numpy.transpose(result.disparity, (1, 0, 2, 3))
+    assert "another order, rows and columns of views exchanged" in episcope.score(swapped, scene)["notes"][0]
+    other = episcope.demo("bars?size=64&grid=5")
+    assert "estimated from other samples" in episcope.score(result, other)["notes"][0]
+
+
+def test_another_reading_is_told_against_an_array(scene, result):
+    scores = episcope.score(-result.disparity[2, 2], scene.truth[2, 2])
+    assert scores["better_reading"]["options"] == "--map-scale=-1"
+    assert "grey_levels" not in scores["better_reading"]
+    assert "values negated" in scores["notes"][0]
+
+
 def test_another_view_can_be_judged(scene, result):
     scores = episcope.score(result, scene, view=(0, 4))
     error = (scene.truth - result.disparity)[0, 4]

@@ -366,8 +366,14 @@ std::vector<LabelInfo> labels_of(const PixelCensus<std::int32_t>& census,
   return found;
 }
 
+/// Pixels that were painted with ids that mean nothing, in words.
+struct Unlabeled {
+  std::string text{};
+  std::size_t pixels = 0;
+};
+
 /// Marks unlabeled numbers by 0. Returns a sentence about those that are not negative, or nothing.
-std::string mark_unlabeled(std::vector<ViewPicture>& pictures, const LabelReading& labels) {
+Unlabeled mark_unlabeled(std::vector<ViewPicture>& pictures, const LabelReading& labels) {
   constexpr std::int32_t kVoid = 255;
   std::map<std::int32_t, std::size_t> counts;
   std::size_t all = 0;
@@ -395,16 +401,17 @@ std::string mark_unlabeled(std::vector<ViewPicture>& pictures, const LabelReadin
     }
   }
   if (none.empty()) return {};
-  return fmt::format("{} ({}) {} unlabeled",
-                     joined(none, ", ", [](int id) { return std::to_string(id); }),
-                     share_text(pixels, all), none.size() == 1 ? "is taken for" : "are taken for");
+  return {fmt::format("{} ({}) {} unlabeled",
+                      joined(none, ", ", [](int id) { return std::to_string(id); }),
+                      share_text(pixels, all), none.size() == 1 ? "is taken for" : "are taken for"),
+          pixels};
 }
 
 ImportedLabels strokes_of_numbers(std::vector<ViewPicture>& pictures, const LabelReading& labels,
                                   const fs::path& path) {
   ImportedLabels strokes;
-  const std::string unlabeled = mark_unlabeled(pictures, labels);
-  if (!unlabeled.empty()) strokes.notes.push_back(path.string() + ": " + unlabeled);
+  const Unlabeled unlabeled = mark_unlabeled(pictures, labels);
+  if (unlabeled.pixels > 0) strokes.notes.push_back(path.string() + ": " + unlabeled.text);
   PixelCensus<std::int32_t> census;
   for (const ViewPicture& one : pictures) {
     Image<std::int32_t> painted(one.picture.height(), one.picture.width());
@@ -419,15 +426,15 @@ ImportedLabels strokes_of_numbers(std::vector<ViewPicture>& pictures, const Labe
   strokes.scribbles.labels = labels_of(census, first, labels);
   const bool has_palette = !first.palette.empty();
   if (pictures.front().is_own) return strokes;
-  const auto zeros = census.counts.find(0);
-  const std::string ground = zeros == census.counts.end()
-                                 ? ""
-                                 : fmt::format("{}0 ({})", has_palette ? "index " : "",
-                                               share_text(zeros->second, census.all()));
+  const std::size_t zeros = census.counts.contains(0) ? census.counts[0] - unlabeled.pixels : 0;
+  const std::string ground = zeros == 0 ? ""
+                                        : fmt::format("{}0 ({})", has_palette ? "index " : "",
+                                                      share_text(zeros, census.all()));
   if (has_palette) {
     strokes.notes.push_back(path.string() + ": a label is an index of the palette: " +
                             joined(strokes.scribbles.labels, ", ", label_text));
   }
+  if (ground.empty() && census.transparent == 0 && unlabeled.pixels > 0) return strokes;
   std::string unpainted = ground_text(ground, census.transparent, census.all());
   if (ground.empty() && census.transparent == 0) {
     const auto& [id, count] =

@@ -23,22 +23,6 @@ constexpr double kFarBetterOrder = 0.6;
 /// Maps rounded to whole pixels differ by as much.
 constexpr double kSmallMisfit_px = 0.01;
 
-/// How maps of all views may be stored.
-struct StoredOrder {
-  bool is_transposed = false;
-  ViewFlip flip;
-
-  /// Where the map of a view is stored.
-  [[nodiscard]] ViewIndex place(ViewIndex view, GridShape grid) const {
-    return flipped(is_transposed ? ViewIndex{view.u, view.v} : view, grid, flip);
-  }
-  [[nodiscard]] std::string text() const {
-    const std::string transposed(finding_text("truth.views_transposed"));
-    if (flip == ViewFlip{}) return transposed;
-    return is_transposed ? transposed + ", " + flip_text(flip) : flip_text(flip);
-  }
-};
-
 std::vector<StoredOrder> other_orders(GridShape grid) {
   std::vector<StoredOrder> orders;
   for (const bool is_transposed : {true, false}) {
@@ -58,28 +42,17 @@ std::vector<ViewIndex> telling_views(GridShape grid) {
   return views;
 }
 
-/// How little maps fit, as a mean.
-struct Misfit {
-  double sum = 0;
-  double count = 0;
+}  // namespace
 
-  void operator+=(const Misfit& more) {
-    sum += more.sum;
-    count += more.count;
-  }
-  [[nodiscard]] double mean() const { return sum / std::max(count, 1e-9); }
-};
+std::string StoredOrder::text() const {
+  const std::string transposed(finding_text("truth.views_transposed"));
+  if (flip == ViewFlip{}) return transposed;
+  return is_transposed ? transposed + ", " + flip_text(flip) : flip_text(flip);
+}
 
-struct BetterOrder {
-  StoredOrder order;
-  double misfit = 0;
-  double as_stored = 0;
-};
-
-/// `misfit_of(view, place)`: of the map of a view if it is stored at that place.
-template <class MisfitOf>
-std::optional<BetterOrder> find_better_order(GridShape grid, double small_misfit,
-                                             const MisfitOf& misfit_of) {
+std::optional<BetterOrder> find_better_order(
+    GridShape grid, double small_misfit,
+    const std::function<Misfit(ViewIndex view, ViewIndex place)>& misfit_of) {
   const auto misfit_by = [&](const StoredOrder& order) {
     Misfit sum;
     for (const ViewIndex view : telling_views(grid))
@@ -98,6 +71,8 @@ std::optional<BetterOrder> find_better_order(GridShape grid, double small_misfit
   }
   return is_better ? std::optional(found) : std::nullopt;
 }
+
+namespace {
 
 /// Compares the map with the center view, which shows the same points in places that the
 /// disparities tell, but for what is hidden. In px.

@@ -27,6 +27,10 @@ if(NOT problem MATCHES "^[0-9]+×[0-9]+ px, but 14 of 15 have [0-9]+×[0-9]+$")
 endif()
 json_is("${out}" ON photos 1 used)
 json_near("${out}" 448 458 focal_length_px 0)
+expect("calibrate again" 0 OUT "camera.yml: focal length"
+       ARGS calibrate ${photographs} --pattern 9x6 --square 25 -o camera.yml -q)
+expect("calibrate over another camera" 1 ERR "mesh.ply: exists and holds something else; .*--overwrite"
+       ARGS calibrate ${photographs} --pattern 9x6 --square 30 --kind chessboard -o rig/mesh.ply -q)
 expect("calibrate with too few" 1 ERR "at least 3 photographs"
        ARGS calibrate rig/pattern/01.png --pattern 9x6 -o other.yml)
 expect("calibrate without a pattern" 2 ERR "--board" ARGS calibrate rig/pattern/01.png -o other.yml)
@@ -46,6 +50,40 @@ one_shape("${out}" 1 1)
 json_near("${out}" 0 1.2 reprojection_error_px)
 json_is("${out}" p1 pairs 0 name)
 json_is("${out}" OFF pairs 0 outlier)
+expect("pose again" 0 ARGS pose raw.h5 --mesh rig/mesh.ply --pairs pairs.csv -o pose.json --quiet)
+expect("pose over other pairs" 1 ERR "pairs.csv: .*" ARGS pose raw.h5 --mesh rig/mesh.ply
+       --pairs rig/picks.csv -o pairs.csv --quiet)
+expect("rectify over other pairs" 1 ERR "pose.json: exists and holds something else"
+       ARGS rectify rig/photographs --camera camera.yml --step 12 --picks rig/picks.csv
+       --pairs pose.json -o raw2.h5 --quiet)
+file(STRINGS "${WORK}/pairs.csv" lines)
+list(POP_FRONT lines head)
+set(wrong "${head}\n")
+set(shift 0)
+foreach(line ${lines})
+  string(REPLACE "," ";" words "${line}")
+  list(GET words 0 name)
+  list(GET words 1 x)
+  list(GET words 2 y)
+  list(SUBLIST words 3 2 place)
+  list(GET words 5 z)
+  string(REPLACE ";" "," place "${place}")
+  math(EXPR shift "(${shift} + 17) % 60")
+  string(REGEX REPLACE "[.].*" "" x "${x}")
+  math(EXPR x "${x} + ${shift}")
+  string(APPEND wrong "${name},${x},${y},${place},${z}\n")
+endforeach()
+file(WRITE "${WORK}/wrong.csv" "${wrong}")
+expect("pose of wrong pairs" 0 ERR "wrong.json: the pairs are off by [0-9.]+ px on average"
+       ARGS pose raw.h5 --mesh rig/mesh.ply --pairs wrong.csv -o wrong.json)
+file(MAKE_DIRECTORY "${WORK}/wrong")
+expect("truth of that pose" 0 ERR "wrong.json: the pairs are off by"
+       ARGS ground-truth raw.h5 --pose wrong.json -o wrong/lf.h5)
+file(READ "${WORK}/pairs.csv" pairs)
+string(REGEX REPLACE "\n(p1,[^,]*,[^,]*),[^\n]*" "\n\\1,9999,9999,9999" pairs "${pairs}")
+file(WRITE "${WORK}/off.csv" "${pairs}")
+expect("pose of pairs off the mesh" 0 ERR "off.json: the points of p1 lie outside of the mesh"
+       ARGS pose raw.h5 --mesh rig/mesh.ply --pairs off.csv -o off.json)
 expect("pose of pairs that are none" 1 ERR "line 1" ARGS pose raw.h5 --mesh rig/mesh.ply
        --pairs rig/readme.txt -o other.json --quiet)
 expect("pose without a pinhole" 1 ERR "pinhole" ARGS pose demo:edge --mesh rig/mesh.ply

@@ -81,6 +81,20 @@ expect("a scene without strokes" 0 ARGS synthesize edge -o edge.h5 --views 3x3 -
 expect("no strokes" 1 ERR "no scribbles" ARGS label edge.h5 -o no.h5)
 expect("a result of other views" 1 ERR "covers 1 of 9"
        ARGS label lf.h5 -o no.h5 --disparity center.h5)
+# What contradicts: another sign, other strokes, other probabilities.
+expect("all views" 0 ARGS estimate epi_l lf.h5 -o all.h5 -q)
+expect("as a map" 0 ARGS convert all.h5 negated.npy --views all --map-scale -1 -q)
+expect("labels by it" 0 ERR "negated.npy: the map fits the ground truth far better with values negated .*add --map-scale=-1 to convert"
+       ARGS label lf.h5 -o d.h5 --disparity negated.npy --trees 4 --regularizer none)
+expect("another light field" 0 ARGS synthesize bars -o bars.h5 --views 3x3 --size 96x96)
+expect("its true labels" 0 ARGS show bars.h5 -o bars.png --what labels)
+expect("strokes of another light field" 0 ERR "only [0-9.]+ % of the painted pixels have that label in GT_LABELS"
+       ARGS label lf.h5 --scribbles bars.png -o d2.h5 --features image --trees 4 --regularizer none)
+expect("probabilities" 0 ARGS label lf.h5 -o p.h5 --features image --trees 4 --regularizer none
+       --write-archive probabilities -q)
+expect("of these labels" 0
+       ARGS label lf.h5 -o p2.h5 --probabilities probabilities/feature_single_view_probabilities.h5 --regularizer view)
+
 expect("an unknown set" 2 ERR "features" ARGS label lf.h5 -o no.h5 --features color)
 expect("truth and a result" 2 ERR "no effect"
        ARGS label lf.h5 -o no.h5 --features image+truth --disparity l.h5)

@@ -51,6 +51,24 @@ endforeach()
 expect("a larger scene" 0 ERR "labels" ARGS synthesize objects -o twice.h5 --views 3x3 --size 128x128)
 expect("half the resolution" 1 ERR "name the light field of the estimate, or bring a map .*--map-resize"
        ARGS evaluate truth.pfm --truth twice.h5)
+expect("show it" 1 ERR "truth.pfm: the map has 64×64 px, but [a-z_]+ has 128×128 px; name the light field"
+       ARGS show truth.pfm --truth twice.h5 -o twice.png --over-view .5)
+expect("convert it" 1 ERR "the map has 64×64 px" ARGS convert truth.pfm t2.h5 --truth twice.h5)
+expect("estimate the small scene" 0 ARGS estimate epi_l lf.h5 -o small.h5 --views center -q)
+expect("and the large one" 0 ARGS estimate epi_l twice.h5 -o large.h5 --views center -q)
+expect("their difference" 1 ERR "the result of epi_l has 128×128 px, but that of epi_l has 64×64 px"
+       ARGS show small.h5 --what difference --minus large.h5 -o d.png -q)
+expect("a scene of the same size" 0 ARGS synthesize edge -o edge.h5 --views 3x3 --size 64x64)
+expect("estimate it" 0 ARGS estimate epi_l edge.h5 -o of_edge.h5 --views center -q)
+expect("its difference" 0 ERR "note: of_edge.h5: it was estimated from other samples than small.h5\n"
+       ARGS show small.h5 --what difference --minus of_edge.h5 -o d.png)
+# What a result was estimated from stays what it says.
+expect("its result there" 0 ERR "note: of_edge.h5: the result was estimated from other samples than [a-z_]+ has"
+       ARGS convert of_edge.h5 other.h5 --truth lf.h5)
+expect("info of it" 0 OUT "estimated by epi_l from edge.h5\n" ERR "" ARGS info other.h5)
+expect("evaluate it there" 0 ERR "note: of_edge.h5: the result was estimated from other samples than"
+       ARGS evaluate of_edge.h5 --truth lf.h5)
+
 expect("enlarged" 0 ARGS evaluate truth.pfm --truth twice.h5 --map-resize --json)
 
 # A number where nothing is known: told with both numbers, too.
@@ -72,7 +90,6 @@ expect("no number" 2 ERR "--map-missing: 'x' is no number; give values between c
 
 # Of another scene: no reading helps, and both numbers say so. What was estimated from these samples
 # is not doubted.
-expect("another scene" 0 ARGS synthesize edge -o edge.h5 --views 3x3 --size 64x64)
 expect("its truth" 0 ARGS convert edge.h5 edge.pfm)
 set(little "the map explains little of the ground truth: MSE×100 [0-9.]+ against [0-9.]+ of the best constant map; check its scale, units and view")
 expect("evaluate it" 0 ERR "edge.pfm: ${little}\n$" ARGS evaluate edge.pfm --truth lf.h5 --json)
@@ -135,6 +152,15 @@ expect("options without a map" 2 ERR "--map-flip is for the maps of a RESULT"
 expect("options without a submission" 2 ERR "has no effect without --maps"
        ARGS benchmark lf.h5 -o t --methods epi_l --map-flip x)
 
+# An estimate is no evidence of the order of views.
+expect("a negated map as truth" 0 ERR "negated.pfm: the map fits the ground truth far better with values negated"
+       ARGS convert negated.pfm as_truth.h5 --truth lf.h5)
+expect("the order of its views" 0 ARGS info as_truth.h5 --json)
+string(JSON order GET "${out}" order)
+if(order MATCHES "truth" OR NOT order MATCHES "as stored")
+  fail_case("an estimate decides on the order of views: ${order}")
+endif()
+
 # A result that took the place of truth stays a result.
 expect("a result as truth" 0 ARGS convert axes.h5 estimated.h5 --truth lf.h5)
 expect("info of it" 0 OUT "not ground truth: estimated by axes from lf.h5\n"
@@ -143,5 +169,7 @@ expect("info of it as JSON" 0 ARGS info estimated.h5 --json)
 json_is("${out}" axes truth_estimated method)
 expect("evaluate against it" 0 ERR "no ground truth: it was estimated by axes from lf.h5"
        ARGS evaluate truth.pfm --truth estimated.h5)
-expect("a form that cannot say so" 0 ERR "read as ground truth" ARGS convert axes.h5 folder/
+expect("as a folder" 0 ARGS convert axes.h5 folder/ --truth lf.h5 -q)
+expect("info of that" 0 OUT "not ground truth: estimated by axes from [.a-z_/]*lf.h5\n" ARGS info folder)
+expect("a form that cannot say so" 0 ERR "read as ground truth" ARGS convert axes.h5 theirs.npz
        --truth lf.h5)

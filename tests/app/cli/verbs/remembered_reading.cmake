@@ -45,7 +45,7 @@ expect("estimate with a focus plane" 0 ARGS estimate epi_l a/lf.h5 -o a/focus.h5
 expect("a map forgets the focus" 0 ERR "evaluate it with --focus=0.5"
        ARGS convert a/focus.h5 focus.pfm)
 score_of(at_focus a/lf.h5 focus.pfm --focus 0.5)
-score_of(unfocused a/lf.h5 focus.pfm)
+score_of(unfocused a/lf.h5 focus.pfm TOLD "off by -0.[45][0-9]* px everywhere.*--focus")
 expect_different("the focus plane" ${at_focus} ${unfocused})
 score_of(remembered a/lf.h5 a/focus.h5)
 expect_equal("a result with a focus plane" ${remembered} ${at_focus})

@@ -2,6 +2,7 @@
 #include "app/session/judge.h"
 
 #include "app/session/result_files.h"
+#include "app/session/result_fit.h"
 #include "engine/core/error.h"
 #include "engine/io/base/exchange_files.h"
 #include "engine/io/models/result_file.h"
@@ -129,25 +130,107 @@ class JudgeTest : public QObject {
     QVERIFY(!find_better_reading(right, *scene));
   }
 
-  void exchangedViewsOfAllMaps_areTold() {
+  void otherOrderOfAllMaps_isTold_data() {
+    QTest::addColumn<bool>("is_transposed");
+    QTest::addColumn<QString>("words");
+    QTest::newRow("exchanged")
+        << true << "another order, rows and columns of views exchanged: against the ground truth";
+    QTest::newRow("u reversed")
+        << false << "another order, u reversed: against the ground truth, MSE×100 is 0.01 so";
+  }
+  void otherOrderOfAllMaps_isTold() {
+    QFETCH(bool, is_transposed);
+    QFETCH(QString, words);
     const auto scene = tiny_scene("objects");
     const EstimatePtr right = shifted_truth(*scene, 0.01F);
-    Estimate exchanged;
-    exchanged.field.disparity = right->field.disparity.clone();
+    Estimate stored;
+    stored.field.disparity = right->field.disparity.clone();
     for (int i = 0; i < 9; ++i) {
-      const ViewIndex view = exchanged.field.disparity.view_at(i);
-      const auto from = right->field.disparity.view({view.u, view.v});
-      std::copy_n(from.data, from.size(), exchanged.field.disparity.view(view).data);
+      const ViewIndex view = stored.field.disparity.view_at(i);
+      const auto from = right->field.disparity.view(is_transposed ? ViewIndex{view.u, view.v}
+                                                                  : ViewIndex{view.v, 2 - view.u});
+      std::copy_n(from.data, from.size(), stored.field.disparity.view(view).data);
     }
 
-    const QString text = QString::fromStdString(doubt_text(std::nullopt, exchanged, *scene));
+    const QString text = QString::fromStdString(doubt_text(stored, *scene));
+    QVERIFY2(text.contains(words), qPrintable(text));
+    QCOMPARE(doubt_text(*right, *scene), std::string());
+    stored.version = "1";  // ours are in order
+    QVERIFY(!QString::fromStdString(doubt_text(stored, *scene)).contains("another order"));
+  }
+
+  void mapOfAnotherView_isTold() {
+    const auto scene = tiny_scene("objects");
+    const Estimate estimate = center_map(scene->truth->field.view({0, 0}), 0);
+
+    const QString text = QString::fromStdString(doubt_text(estimate, *scene));
+
+    QVERIFY2(text.startsWith(
+                 "the map fits the ground truth of view 0,0 far better than that of view 1,1: "
+                 "MSE×100 0 instead of "),
+             qPrintable(text));
+    QCOMPARE(doubt_text(center_map(scene->truth->field.view({1, 1}), 0), *scene), std::string());
+  }
+
+  void constantOffset_isTold() {
+    const auto scene = tiny_scene("objects");
+
+    const QString text = QString::fromStdString(
+        doubt_text(center_map(scene->truth->field.view({1, 1}), 0.5F), *scene));
+
     QVERIFY2(
-        text.contains("against the ground truth of view 0,2, the map of that view has MSE×100"),
+        text.startsWith("the map is off by +0.5 px everywhere: without that, MSE×100 would be"),
         qPrintable(text));
-    QCOMPARE(doubt_text(std::nullopt, *right, *scene), std::string());
+  }
+
+  void resultOfAnotherSizeOrGrid_isRefused_data() {
+    QTest::addColumn<int>("views");
+    QTest::addColumn<int>("side");
+    QTest::addColumn<QString>("words");
+    QTest::newRow("size") << 3 << 32 << "the map has 32×32 px, but";
+    QTest::newRow("grid") << 5 << 64 << "the map has 5×5 views, but";
+  }
+  void resultOfAnotherSizeOrGrid_isRefused() {
+    QFETCH(int, views);
+    QFETCH(int, side);
+    QFETCH(QString, words);
+    const auto scene = tiny_scene("objects");
+    DisparityField maps = DisparityField::unknown({views, views}, side, side, {});
+    std::fill_n(maps.valid.data(), maps.valid.size(), std::uint8_t{1});
+
+    try {
+      (void)result_from_maps(*scene->light_field, std::move(maps), "mine");
+      QFAIL("it was taken");
+    } catch (const InvalidInput& error) {
+      QVERIFY2(QString(error.what()).startsWith("mine: " + words), error.what());
+    }
+  }
+
+  void resultOfOtherSamples_isToldInWhateverPlace() {
+    const auto scene = tiny_scene("objects");
+    Estimate estimate = center_map(scene->truth->field.view({1, 1}), 0);
+    estimate.version = "1";
+    estimate.source_hash = scene->light_field->sample_hash();
+    QVERIFY(fit_of(estimate, *scene).sentences().empty());
+    estimate.source_hash += 1;
+
+    const std::vector<std::string> sentences = fit_of(estimate, *scene).sentences();
+
+    QCOMPARE(sentences.size(), std::size_t{1});
+    QVERIFY(QString::fromStdString(sentences[0]).contains("estimated from other samples than"));
   }
 
  private:
+  /// A map of the center view of 3×3, `offset` px above `map`.
+  static Estimate center_map(const DisparityView& map, float offset) {
+    Estimate estimate;
+    estimate.field.disparity = ViewStack<float>({1, 1}, kSide, kSide, 1, {1, 1});
+    float* values = estimate.field.disparity.data();
+    for (std::size_t i = 0; i < map.disparity.size(); ++i)
+      values[i] = map.disparity.data[i] + offset;
+    return estimate;
+  }
+
   /// Disparity 9 everywhere.
   class FlatTruth : public HighResTruth {
    public:

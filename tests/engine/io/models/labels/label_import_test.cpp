@@ -138,6 +138,15 @@ class LabelImportTest : public QObject {
              qPrintable(told(labels)));
   }
 
+  void ignoredPixels_areNotUnpaintedAsWell() {
+    io::LabelReading reading;
+    reading.ignored = std::vector<std::int32_t>{2};
+
+    const QString notes = told(io::read_label_files({tool_file("ignore.png")}, kPlaces, reading));
+
+    QVERIFY2(notes.contains("0 (50 % of the pixels) is unpainted"), qPrintable(notes));
+  }
+
   void arrays_areOfOneViewOrAll_data() {
     QTest::addColumn<QList<int>>("shape");
     QTest::addColumn<int>("views");

@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/session/result_fit.h"
+
+#include "app/session/command_line.h"
+#include "app/session/judge.h"
+#include "engine/core/disparity_field.h"
+#include "engine/core/error.h"
+#include "engine/core/finding.h"
+#include "engine/core/numbers.h"
+#include "engine/io/base/json.h"
+#include "engine/io/models/order/truth_views.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+namespace episcope {
+
+std::string reason_against_fit(const std::string& who, const MapGeometry& maps,
+                               const std::string& other_name, const MapGeometry& other) {
+  if (maps.grid.count() == 0 || other.grid.count() == 0) return {};
+  if (maps.height != other.height || maps.width != other.width) {
+    return fmt::format("{} has {}×{} px, but {} has {}×{} px", who, maps.width, maps.height,
+                       other_name, other.width, other.height);
+  }
+  const bool is_of_one = maps.grid.count() == 1 || other.grid.count() == 1;
+  if (is_of_one || maps.grid == other.grid) return {};
+  return fmt::format("{} has {}×{} views, but {} has {}×{}", who, maps.grid.v, maps.grid.u,
+                     other_name, other.grid.v, other.grid.u);
+}
+
+void check_fits(const Estimate& estimate, const LightField& light_field, const std::string& file) {
+  const MapGeometry maps = geometry_of(estimate.field.disparity);
+  std::string reason =
+      reason_against_fit("the map", maps, light_field.info().name, geometry_of(light_field));
+  if (reason.empty() && !light_field.grid().contains(maps.first)) {
+    reason = fmt::format("the map is of view {}, but {} has {}×{} views", view_text(maps.first),
+                         light_field.info().name, light_field.grid().v, light_field.grid().u);
+  }
+  if (reason.empty()) return;
+  throw InvalidInput(file + ": " + reason +
+                     "; name the light field of the estimate, or bring a map of another resolution "
+                     "to this size (--map-resize)");
+}
+
+void check_fits(const ViewStack<std::int32_t>& labels, const LightField& light_field,
+                const std::string& file) {
+  const std::string reason = reason_against_fit("the labeling", geometry_of(labels),
+                                                light_field.info().name, geometry_of(light_field));
+  if (!reason.empty()) throw InvalidInput(file + ": " + reason + "; name its own light field");
+}
+
+bool is_of_other_samples(const Estimate& estimate, const LightField& light_field) {
+  return estimate.source_hash != 0 && estimate.source_hash != light_field.sample_hash();
+}
+
+namespace {
+
+ParameterSet without_focus(ParameterSet options) {
+  std::erase_if(options, [](const auto& option) { return option.first == Reading::kFocus; });
+  return options;
+}
+
+}  // namespace
+
+std::string differing_options(const Estimate& estimate, const LightField& light_field) {
+  const Reading& own = estimate.reading;
+  const Reading& other = light_field.info().reading;
+  if (own.reader != other.reader || own.reader.empty()) return {};
+  if (without_focus(own.options) == without_focus(other.options)) return {};
+  const std::string text = reading_options_text(without_focus(own.options));
+  return text.empty() ? "no options" : text;
+}
+
+std::string options_missing_in(const Reading& other, const Reading& reading) {
+  ParameterSet options = without_focus(reading.options);
+  std::erase_if(options, [&other](const auto& option) {
+    return std::ranges::count(other.options, option) > 0;
+  });
+  return reading_options_text(options);
+}
+
+namespace {
+
+/// Empty if it was not.
+std::string other_samples_text(const Estimate& estimate, const LightField& light_field) {
+  if (!is_of_other_samples(estimate, light_field)) return {};
+  const Reading& own = estimate.reading;
+  const Reading& other = light_field.info().reading;
+  std::string text =
+      "the result was estimated from other samples than " + light_field.info().name + " has";
+  if (const std::string more = options_missing_in(other, own); !more.empty()) {
+    text += "; its own were read with" + more;
+  } else if (const std::string less = options_missing_in(own, other); !less.empty()) {
+    text += "; its own were read without" + less;
+  }
+  return text;
+}
+
+/// The view in which a result is compared with truth and views; none if it does not fit.
+std::optional<ViewIndex> compared_view(const Estimate& estimate, const Scene& scene) {
+  const LightField& light_field = *scene.light_field;
+  const ViewStack<float>& maps = estimate.field.disparity;
+  const ViewIndex judged = judged_view(scene);
+  const ViewIndex view = estimate.field.contains(judged) ? judged : maps.first();
+  const bool fits = maps.height() == light_field.height() && maps.width() == light_field.width() &&
+                    light_field.grid().contains(view) && estimate.layered.foreground.empty();
+  return fits ? std::optional(view) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<io::BetterReading> find_better_reading(const Estimate& estimate, const Scene& scene) {
+  const LightField& light_field = *scene.light_field;
+  const DisparityField& truth = scene.truth->field;
+  const auto view = compared_view(estimate, scene);
+  if (!view) return std::nullopt;
+  const bool has_truth = truth.contains(*view);
+  if (!has_truth && !estimate.version.empty()) return std::nullopt;
+  io::MapEvidence evidence{light_field, *view};
+  if (!has_truth) return io::find_better_reading(estimate.field.view(*view), evidence);
+  const ShownDisparity shown(truth.view(*view), light_field.valid_of(*view));
+  evidence.truth = shown.view();
+  auto better = io::find_better_reading(estimate.field.view(*view), evidence);
+  // This program writes NaN where nothing is known: a value that many pixels have ends its range.
+  const bool is_own = !estimate.version.empty();
+  return better && is_own && !better->reading.missing.empty() ? std::nullopt : std::move(better);
+}
+
+namespace {
+
+/// "MSE×100 0.08 instead of 194", "1.9 instead of 6.3 grey levels between views".
+std::string both_numbers(const io::BetterReading& found) {
+  std::string text;
+  if (found.as_read.mse_100 && found.better.mse_100) {
+    text = fmt::format("MSE×100 {:.3g} instead of {:.3g}", *found.better.mse_100,
+                       *found.as_read.mse_100);
+  }
+  if (found.better.grey_levels) {
+    text +=
+        fmt::format("{}{:.3g} instead of {} grey levels between the views",
+                    text.empty() ? "" : ", ", *found.better.grey_levels,
+                    found.as_read.grey_levels ? fmt::format("{:.3g}", *found.as_read.grey_levels)
+                                              : "any number of");
+  }
+  return text;
+}
+
+// Options that read a map so, as on the command line: " --map-transpose --map-scale=0.01".
+std::string map_options_text(const io::MapReading& reading) {
+  return options_text(io::given_options(reading), io::map_schema().descriptions());
+}
+
+}  // namespace
+
+std::string better_reading_finding(const io::BetterReading& found) {
+  const bool is_by_truth = found.as_read.mse_100.has_value();
+  return fmt::format("the map {} far better with {} ({}){}",
+                     is_by_truth ? "fits the ground truth" : "explains the views",
+                     io::reading_text(found.reading), both_numbers(found),
+                     found.is_contradicted() ? ", but the views fit it as it is" : "");
+}
+
+std::string better_reading_text(const io::BetterReading& found) {
+  const char* remedy =
+      found.is_contradicted() ? ": check the ground truth, or add" : "; if it is stored so, add";
+  return better_reading_finding(found) + remedy + map_options_text(found.reading);
+}
+
+nlohmann::ordered_json better_reading_json(const io::BetterReading& found) {
+  nlohmann::ordered_json json;
+  json["options"] = map_options_text(found.reading).substr(1);
+  json["reading"] = io::parameters_json(io::given_options(found.reading));
+  const auto add = [&json](const char* key, std::optional<double> value) {
+    if (value) json[key] = *value;
+  };
+  add("mse_100", found.better.mse_100);
+  add("mse_100_as_read", found.as_read.mse_100);
+  add("grey_levels", found.better.grey_levels);
+  add("grey_levels_as_read", found.as_read.grey_levels);
+  return json;
+}
+
+namespace {
+
+/// Where both hold values.
+struct Errors {
+  std::vector<double> differences;  ///< Map − truth.
+
+  Errors(const DisparityView& map, const DisparityView& truth) {
+    for (int y = 0; y < truth.disparity.height; ++y) {
+      for (int x = 0; x < truth.disparity.width; ++x) {
+        if (!truth.is_valid(y, x) || !map.is_valid(y, x)) continue;
+        differences.push_back(map.disparity.at(y, x) - truth.disparity.at(y, x));
+      }
+    }
+  }
+
+  /// Once `offset` is taken from the map.
+  [[nodiscard]] io::Misfit squares(double offset = 0) const {
+    io::Misfit sum;
+    for (const double each : differences) sum += {(each - offset) * (each - offset), 1};
+    return sum;
+  }
+  [[nodiscard]] double mse_100(double offset = 0) const { return 100 * squares(offset).mean(); }
+};
+
+/// Of the error as read, below which another view or another constant explains a map far better.
+constexpr double kFarBetter = 0.25;
+constexpr double kSmallOffset_px = 0.1;
+
+/// Whether maps of all views are in another order.
+std::string other_order_text(const DisparityField& maps, const Scene& scene) {
+  const DisparityField& truth = scene.truth->field;
+  const GridShape grid = scene.light_field->grid();
+  if (grid.count() == 1 || !(maps.disparity.grid() == grid && truth.disparity.grid() == grid)) {
+    return {};
+  }
+  const auto found = io::find_better_order(grid, 0, [&](ViewIndex view, ViewIndex place) {
+    return Errors(maps.view(place), truth.view(view)).squares();
+  });
+  if (!found) return {};
+  return fmt::format(finding_text("map.views_exchanged"), found->order.text(), 100 * found->misfit,
+                     100 * found->as_stored);
+}
+
+/// Whether a single map is of another view.
+std::string other_view_text(const DisparityView& map, ViewIndex view, const Scene& scene) {
+  const DisparityField& truth = scene.truth->field;
+  const double as_read = Errors(map, truth.view(view)).mse_100();
+  double least = kFarBetter * as_read;
+  std::optional<ViewIndex> best;
+  for (int i = 0; i < truth.disparity.grid().count(); ++i) {
+    const ViewIndex other = truth.disparity.view_at(i);
+    const double mse = Errors(map, truth.view(other)).mse_100();
+    if (!(mse < least)) continue;
+    least = mse;
+    best = other;
+  }
+  if (!best) return {};
+  return fmt::format(
+      "the map fits the ground truth of view {} far better than that of view {}: MSE×100 {:.3g} "
+      "instead "
+      "of {:.3g}; name the view that it is of",
+      view_text(*best), view_text(view), least, as_read);
+}
+
+std::string offset_text(const DisparityView& map, const DisparityView& truth) {
+  const Errors errors(map, truth);
+  if (errors.differences.empty()) return {};
+  std::vector<double> sorted = errors.differences;
+  const double offset = quantile(sorted, 0.5);
+  const double as_read = errors.mse_100(), without = errors.mse_100(offset);
+  if (std::abs(offset) < kSmallOffset_px || !(without < kFarBetter * as_read)) return {};
+  return fmt::format(
+      "the map is off by {:+.3g} px everywhere: without that, MSE×100 would be {:.3g} instead of "
+      "{:.3g}; check which focus plane it belongs to (--focus)",
+      offset, without, as_read);
+}
+
+std::string poor_fit_text(const DisparityView& map, const DisparityView& truth) {
+  const auto fit = io::find_poor_fit(map, truth);
+  if (!fit) return {};
+  return fmt::format(finding_text("map.poor"), fit->mse_100, fit->constant_mse_100);
+}
+
+}  // namespace
+
+std::string doubt_text(const Estimate& estimate, const Scene& scene) {
+  const auto view = compared_view(estimate, scene);
+  if (!view || !scene.truth->field.contains(*view)) return {};
+  if (estimate.source_hash != 0 && !is_of_other_samples(estimate, *scene.light_field)) return {};
+  const bool is_foreign = estimate.version.empty();
+  std::string text = is_foreign ? other_order_text(estimate.field, scene) : std::string();
+  const DisparityView map = estimate.field.view(*view);
+  if (text.empty() && is_foreign && estimate.field.disparity.grid().count() == 1) {
+    text = other_view_text(map, *view, scene);
+  }
+  const ShownDisparity shown(scene.truth->field.view(*view), scene.light_field->valid_of(*view));
+  if (text.empty()) text = offset_text(map, shown.view());
+  return text.empty() ? poor_fit_text(map, shown.view()) : text;
+}
+
+bool is_ground_truth(const Estimate& estimate, const Scene& scene) {
+  const auto view = compared_view(estimate, scene);
+  return estimate.version.empty() && view && scene.truth->field.contains(*view) &&
+         Errors(estimate.field.view(*view), scene.truth->field.view(*view)).mse_100() == 0;
+}
+
+std::vector<std::string> ResultFit::sentences(
+    std::string (*describe)(const io::BetterReading&)) const {
+  std::vector<std::string> all = notes;
+  if (better) all.push_back(describe(*better));
+  return all;
+}
+
+ResultFit fit_of(const Estimate& estimate, const Scene& scene) {
+  ResultFit fit;
+  if (estimate.version.empty()) fit.notes = estimate.notes;
+  fit.notes.push_back(other_samples_text(estimate, *scene.light_field));
+  fit.better = find_better_reading(estimate, scene);
+  if (!fit.better) fit.notes.push_back(doubt_text(estimate, scene));
+  std::erase(fit.notes, std::string());
+  return fit;
+}
+
+std::vector<std::string> truth_warnings(const ConventionReport& report) {
+  std::vector<std::string> warnings = report.warnings;
+  std::erase_if(warnings, [](const std::string& warning) {
+    const auto finding = finding_of(warning);
+    if (!finding || finding->code == "truth.estimated") return true;  // `judge` says it
+    return !(finding->code.starts_with("truth.") || finding->code.starts_with("map.") ||
+             finding->code.starts_with("depth."));
+  });
+  return warnings;
+}
+
+}  // namespace episcope

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/estimate.h"
+#include "engine/core/light_field.h"
+#include "engine/core/scene.h"
+#include "engine/io/models/better_reading.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace episcope {
+
+/// Throws InvalidInput, naming `file`, if the maps of a result have not the size of the views, or
+/// are of several but not of all of them.
+void check_fits(const Estimate& estimate, const LightField& light_field, const std::string& file);
+/// The same of labels.
+void check_fits(const ViewStack<std::int32_t>& labels, const LightField& light_field,
+                const std::string& file);
+
+/// "It has maps of 5×5 views, the other one of 7×7": why two maps cannot be compared, as a sentence
+/// that begins with `who` and has no full stop; empty if both have one size and grid, or one of
+/// them a single view. An empty one fits all.
+[[nodiscard]] std::string reason_against_fit(const std::string& who, const MapGeometry& maps,
+                                             const std::string& other_name,
+                                             const MapGeometry& other);
+
+/// Views of a light field as maps would cover them.
+[[nodiscard]] inline MapGeometry geometry_of(const LightField& light_field) {
+  return {light_field.grid(), {}, light_field.height(), light_field.width()};
+}
+
+/// Whether a result says that it was estimated from samples of another light field. Reads all
+/// samples.
+[[nodiscard]] bool is_of_other_samples(const Estimate& estimate, const LightField& light_field);
+
+/// Options by which the light field of a result was read otherwise than this one, as on the command
+/// line ("--flip=u"), the focus plane left aside; empty if there are none, or that is not known.
+[[nodiscard]] std::string differing_options(const Estimate& estimate,
+                                            const LightField& light_field);
+
+/// Options of `reading`, the focus plane left aside, that `other` was not read with, as on the
+/// command line: " --flip=u".
+[[nodiscard]] std::string options_missing_in(const Reading& other, const Reading& reading);
+
+/// Looks for a reading by which truth and views explain a result far better
+/// (io::find_better_reading), in the view that is judged or the only one. Without truth, results of
+/// this program are not looked at. Empty if there is none, or the result does not fit.
+[[nodiscard]] std::optional<io::BetterReading> find_better_reading(const Estimate& estimate,
+                                                                   const Scene& scene);
+
+/// Says so with both numbers: "the map fits the ground truth far better with rows and columns
+/// exchanged (…)", and whether the views contradict it.
+[[nodiscard]] std::string better_reading_finding(const io::BetterReading& found);
+
+/// The same with the options that apply it: "…; if it is stored so, add --map-transpose".
+[[nodiscard]] std::string better_reading_text(const io::BetterReading& found);
+
+/// Both numbers, as read and by the options that would fit better, as programs read them.
+[[nodiscard]] nlohmann::ordered_json better_reading_json(const io::BetterReading& found);
+
+/// Whether a map of another program is the ground truth itself, number for number.
+[[nodiscard]] bool is_ground_truth(const Estimate& estimate, const Scene& scene);
+
+/// What speaks against a result that no other reading explains better, with both numbers: that its
+/// maps fit the truth of other views, or but for a constant, far better, or explain little of it
+/// (io::find_poor_fit); else empty. Results that were estimated from the samples of the light field
+/// are not doubted.
+[[nodiscard]] std::string doubt_text(const Estimate& estimate, const Scene& scene);
+
+/// What a user must know of a result in the place of a light field.
+struct ResultFit {
+  std::optional<io::BetterReading> better;
+  /// How maps of another program were read, that the samples are others, and `doubt_text`.
+  std::vector<std::string> notes;
+
+  /// All of it, a sentence each.
+  [[nodiscard]] std::vector<std::string> sentences(
+      std::string (*describe)(const io::BetterReading&) = better_reading_text) const;
+};
+/// Precondition: the result fits (check_fits).
+[[nodiscard]] ResultFit fit_of(const Estimate& estimate, const Scene& scene);
+
+/// The warnings of a scene that tell of the truth by which results are judged.
+[[nodiscard]] std::vector<std::string> truth_warnings(const ConventionReport& report);
+
+}  // namespace episcope
