@@ -3192,6 +3192,46 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>%2 … %3 px sind versprochen, die Referenz hat %4 … %5 px.</translation>
     </message>
     <message>
+        <source>%1 is taken for view (%2), but its name may mean view (%3) as well; keep only the numbers of row and column in it, as in 03_04.png.</source>
+        <translation>%1 gilt als Ansicht (%2), der Name kann aber auch Ansicht (%3) meinen; nur die Nummern von Zeile und Spalte darin lassen, wie in 03_04.png.</translation>
+    </message>
+    <message>
+        <source>%1 is taken for view (%2).</source>
+        <translation>%1 gilt als Ansicht (%2).</translation>
+    </message>
+    <message>
+        <source>%1 holds labels of pictures that are no views of this light field; they are left out: %2.</source>
+        <translation>%1 enthält Labels von Bildern, die keine Ansichten dieses Lichtfelds sind; sie bleiben weg: %2.</translation>
+    </message>
+    <message>
+        <source>Labels of other pictures in %1 are left out.</source>
+        <translation>Labels anderer Bilder in %1 bleiben weg.</translation>
+    </message>
+    <message>
+        <source>Ids that other labels have, or above %1, became others: %2.</source>
+        <translation>Nummern, die andere Labels haben oder die über %1 liegen, wurden ersetzt: %2.</translation>
+    </message>
+    <message>
+        <source>Some labels have other ids than in the file.</source>
+        <translation>Einige Labels haben andere Nummern als in der Datei.</translation>
+    </message>
+    <message>
+        <source>Labels of one name or color are told apart in these files: %1.</source>
+        <translation>Labels mit gleichem Namen oder gleicher Farbe sind in diesen Dateien unterschieden: %1.</translation>
+    </message>
+    <message>
+        <source>Labels of one name or color were told apart.</source>
+        <translation>Labels mit gleichem Namen oder gleicher Farbe wurden unterschieden.</translation>
+    </message>
+    <message>
+        <source>%1: 0 means unlabeled whatever is ignored (%2 % of the pixels); --first-label 0 makes it a label, and raises all ids by one.</source>
+        <translation>%1: 0 heißt immer „ohne Label“ (%2 % der Pixel); --first-label 0 macht 0 zu einem Label und erhöht alle Nummern um eins.</translation>
+    </message>
+    <message>
+        <source>0 means unlabeled.</source>
+        <translation>0 heißt „ohne Label“.</translation>
+    </message>
+    <message>
         <source>No pixel belongs to %1 in %2: the shapes are too small, outside of the picture, or covered.</source>
         <translation>Kein Pixel gehört zu %1 in %2: Die Formen sind zu klein, außerhalb des Bildes oder verdeckt.</translation>
     </message>
@@ -3600,6 +3640,26 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>Ids between commas that mean “unlabeled”, besides 0; - for none</source>
         <translation>Nummern mit Kommas dazwischen, die außer 0 „ohne Label“ bedeuten; - für keine</translation>
+    </message>
+    <message>
+        <source>Table…</source>
+        <translation>Tabelle …</translation>
+    </message>
+    <message>
+        <source>What the colors of pictures mean: lines r,g,b,id,name, or a labelmap.txt</source>
+        <translation>Was die Farben von Bildern bedeuten: Zeilen r,g,b,id,name oder eine labelmap.txt</translation>
+    </message>
+    <message>
+        <source>Colors</source>
+        <translation>Farben</translation>
+    </message>
+    <message>
+        <source>Table of colors</source>
+        <translation>Farbtabelle</translation>
+    </message>
+    <message>
+        <source>Tables (*.csv *.txt);;All files (*)</source>
+        <translation>Tabellen (*.csv *.txt);;Alle Dateien (*)</translation>
     </message>
     <message>
         <source>Unlabeled</source>
