@@ -50,11 +50,14 @@ void declare_label_options(Arguments& parser, LabelFileOptions& options) {
   parser.option("--ignore", options.ignored, text_value("ID,...|none"),
                 "Ids that mean unlabeled, besides 0 and negative ones; by default 255 where all "
                 "labels are smaller");
+  parser.option("--first-label", options.first_label, integer_value("N", 0, 1),
+                "0 = 0 is a label, as in trainIds of Cityscapes: all ids are raised by one");
 }
 
 void check_label_options(const Arguments& parser, const LabelFileOptions& options,
                          const std::string& option) {
-  parser.check_uses({{{"--colors", "--ignore"}, !options.file.empty(), "without " + option}});
+  parser.check_uses(
+      {{{"--colors", "--ignore", "--first-label"}, !options.file.empty(), "without " + option}});
   (void)ignored_ids(options.ignored);
 }
 
@@ -68,9 +71,11 @@ Scribbles load_labels(const LabelFileOptions& options, const Scene& scene, Job& 
   };
   if (!options.colors.empty() && has_names) refuse("--colors");
   if (!options.ignored.empty() && is_own) refuse("--ignore");
+  if (options.first_label == 0 && has_names) refuse("--first-label");
   const io::LabelReading reading{.table = color_table(options.colors),
                                  .known = scene.scribbles.labels,
                                  .ignored = ignored_ids(options.ignored),
+                                 .zero_is_label = options.first_label == 0,
                                  .prefers_truth = options.prefers_truth};
   io::ImportedLabels labels = io::read_labels({options.file}, scene, reading, progress);
   for (const std::string& note : labels.notes) job.note(note);

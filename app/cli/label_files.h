@@ -15,10 +15,11 @@ struct LabelFileOptions {
   std::string file{};    ///< Or folder; empty = none.
   std::string colors{};  ///< Table, or one of io::shared_colors by name.
   std::string ignored{};
+  int first_label = 1;         ///< 0 = 0 is a label.
   bool prefers_truth = false;  ///< As io::LabelReading.
 };
 
-/// Declares `--colors` and `--ignore` beside the option that names the file.
+/// Declares `--colors`, `--ignore` and `--first-label` beside the option that names the file.
 void declare_label_options(Arguments& parser, LabelFileOptions& options);
 
 /// Throws UsageError if an option is given without a file (`option` names it), or for an `--ignore`

@@ -439,6 +439,22 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
     {"labels.no_view",
      "{} names none of the {}×{} views; its labels are taken for the center view ({}).",
      "%1 names none of the views; it is taken for the center view."},
+    {"labels.numbers",
+     "{} is taken for view ({}), but its name may mean view ({}) as well; keep only the numbers of "
+     "row and column in it, as in 03_04.png.",
+     "%1 is taken for view (%2)."},
+    {"labels.foreign",
+     "{} holds labels of pictures that are no views of this light field; they are left out: {}.",
+     "Labels of other pictures in %1 are left out."},
+    {"labels.renumbered", "Ids that other labels have, or above {}, became others: {}.",
+     "Some labels have other ids than in the file."},
+    {"labels.told_apart", "Labels of one name or color are told apart in these files: {}.",
+     "Labels of one name or color were told apart."},
+    {"labels.zero",
+     "{}: 0 means unlabeled whatever is ignored ({:.4g} % of the pixels); --first-label 0 makes it "
+     "a "
+     "label, and raises all ids by one.",
+     "0 means unlabeled."},
     {"labels.shapes",
      "No pixel belongs to {} in {}: the shapes are too small, outside of the picture, or covered.",
      "No pixel belongs to %1."},

@@ -18,6 +18,8 @@ struct ViewRays {
   const std::uint8_t* probabilities = nullptr;  // `[view][y][label][x]`
   const float *weights = nullptr, *disparity = nullptr;
   const std::uint8_t *valid = nullptr, *colors = nullptr;
+  const std::int32_t* painted = nullptr;
+  float price_of_held = 0;
   const float* costs = nullptr;   // 256
   const float* trusts = nullptr;  // most_difference + 1
   int most_difference = 0;
@@ -71,6 +73,7 @@ class ViewRaysMemory {
  private:
   DeviceArray<std::uint8_t> probabilities_, valid_, colors_;
   DeviceArray<float> weights_, disparity_, costs_, trusts_;
+  DeviceArray<std::int32_t> painted_;
   ViewRays rays_;
 };
 
@@ -82,6 +85,22 @@ DeviceArray<T> upload_views(const RayLabelsTask& task, std::size_t each, const M
   DeviceArray<T> maps(each * task.views.size(), stream);
   for (std::size_t i = 0; i < task.views.size(); ++i) {
     upload_bytes(maps.data() + i * each, map_of(task.views[i]), each * sizeof(T), stream, progress);
+  }
+  return maps;
+}
+
+// Empty if nothing is painted in any view.
+DeviceArray<std::int32_t> upload_painted(const RayLabelsTask& task, std::size_t pixels,
+                                         const DeviceStream& stream, const Progress& progress) {
+  const auto is_painted = [](const RayView& view) { return view.painted != nullptr; };
+  if (std::none_of(task.views.begin(), task.views.end(), is_painted)) return {};
+  DeviceArray<std::int32_t> maps(pixels * task.views.size(), stream);
+  // Bytes of −1.
+  check(cudaMemsetAsync(maps.data(), 0xFF, maps.size() * sizeof(std::int32_t), stream.get()));
+  for (std::size_t i = 0; i < task.views.size(); ++i) {
+    if (!is_painted(task.views[i])) continue;
+    upload_bytes(maps.data() + i * pixels, task.views[i].painted, pixels * sizeof(std::int32_t),
+                 stream, progress);
   }
   return maps;
 }
@@ -106,6 +125,7 @@ ViewRaysMemory::ViewRaysMemory(const RayLabelsTask& task, const DeviceStream& st
   if (!colors_.empty()) {
     trusts_ = upload(task.trusts.data(), task.trusts.size(), stream, progress);
   }
+  painted_ = upload_painted(task, pixels, stream, progress);
   rays_.grid = task.grid;
   rays_.height = first.height;
   rays_.width = first.width;
@@ -116,6 +136,8 @@ ViewRaysMemory::ViewRaysMemory(const RayLabelsTask& task, const DeviceStream& st
   rays_.disparity = disparity_.data();
   rays_.valid = valid_.data();
   rays_.colors = colors_.data();
+  rays_.painted = painted_.data();
+  rays_.price_of_held = task.price_of_held;
   rays_.costs = costs_.data();
   rays_.trusts = trusts_.data();
   rays_.most_difference = static_cast<int>(task.trusts.size()) - 1;
@@ -182,10 +204,13 @@ __global__ void fill(ViewRays rays, ProblemViews views, int near, SimplexFields 
     }
   }
   float* const out = fields.cost + fields.unknown(problem, y, x);
-  for (int l = 0; l < rays.layers; ++l) {
-    out[static_cast<long>(l) * rays.width] = __fdiv_rn(sums[l * stride], weight);
-  }
   const long pixel = static_cast<long>(view) * rays.pixels() + static_cast<long>(y) * rays.width;
+  const std::int32_t painted = rays.painted != nullptr ? rays.painted[pixel + x] : -1;
+  for (int l = 0; l < rays.layers; ++l) {
+    const float cost = __fdiv_rn(sums[l * stride], weight);
+    const float held = l == painted ? 0 : rays.price_of_held;
+    out[static_cast<long>(l) * rays.width] = painted < 0 ? cost : held;
+  }
   fields.weights[fields.pixel(problem, y, x)] =
       rays.weights != nullptr ? rays.weights[pixel + x] : 1.0F;
 }
@@ -267,6 +292,10 @@ __global__ void vote(ViewRays rays, const std::int32_t* labels, std::int32_t* de
   }
   const long at = view * rays.pixels() + static_cast<long>(y) * rays.width + x;
   const std::int32_t own = labels[at];
+  if (rays.painted != nullptr && rays.painted[at] >= 0) {
+    decided[at] = rays.painted[at];
+    return;
+  }
   votes[own * stride] += 1;
   int most = 0;
   for (int l = 1; l < rays.layers; ++l) {

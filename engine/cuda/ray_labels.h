@@ -19,6 +19,9 @@ struct RayView {
   const float* disparity = nullptr;              ///< `[y][x]`; null = rays are not followed.
   const std::uint8_t* valid = nullptr;           ///< Of disparity; null = everywhere.
   const std::uint8_t* colors = nullptr;  ///< `[y][x][channel]`; null = all rays are trusted.
+  /// Label of each pixel that keeps it, `[y][x]`, −1 = free; null, also of some views alone = all
+  /// are free.
+  const std::int32_t* painted = nullptr;
 };
 
 /// All views of a rectangle of the camera grid, and how they are labeled (RayLabelingParameters).
@@ -34,7 +37,8 @@ struct RayLabelsTask {
   float tolerance_px = 0;         ///< Disparities within count as the same point.
   int near_views = 0;  ///< Rays of the nearest n×n views share their costs; 0 = each has its own.
   int votes = 0;       ///< Rounds in which the rays of a point vote.
-  double smoothness = 1;  ///< > 0
+  double smoothness = 1;    ///< > 0
+  float price_of_held = 0;  ///< Of another label of a pixel that keeps its own.
   double gap = 1e-2;
   int max_iterations = 300;
   int check_every = 5;

@@ -144,11 +144,6 @@ void carry_news(const ViewNews& news, const DisparityField& disparity, const Ray
 
 namespace {
 
-// What a held pixel pays for another label: more than all its boundaries.
-float price_of_held(double smoothness) {
-  return static_cast<float>(8 * smoothness + 8);
-}
-
 // The marked pixels of a view, and those around them.
 Image<std::uint8_t> around(ImageView<const std::uint8_t> marks, int reach_px) {
   const cv::Size window(2 * reach_px + 1, 2 * reach_px + 1);
@@ -365,6 +360,7 @@ SimplexResult ViewCorrector::solve(ViewIndex view, const Image<std::uint8_t>& op
   fill_track_costs(
       {*input_.probabilities, *input_.disparity, view, TrackViews::Near, &colors_, open}, table_,
       progress.part(0, 0), costs_.view());
+  hold_painted(painted_layers(input_, view), price_of_held(parameters_.smoothness), costs_.view());
   const Image<float> weights = boundary_weights_of(input_, view);
   for (const Blob& blob : task.blobs) {
     const PixelRect& own = blob.bounds;
@@ -429,6 +425,7 @@ RayLabeling correct_rays(const RayLabelingInput& input, const RayLabelingParamet
     const ImageView<const std::uint8_t> changed = correction.changed.view(views[i]);
     parts[i] = i == 0 ? corrector.correct(views[i], changed, part, layers)
                       : corrector.follow(solved, views[i], changed, part, layers);
+    keep_painted(painted_layers(input, views[i]), layers);
     if (correction.on_view) correction.on_view(views[i], layers);
   };
   ViewCorrector first(input, parameters, correction.colors);
@@ -441,8 +438,8 @@ RayLabeling correct_rays(const RayLabelingInput& input, const RayLabelingParamet
     };
   });
   for (const SimplexResult& part : parts) add_part(part, result);
-  vote_in_rounds({static_cast<int>(p.ids.size()), *input.disparity, correction.colors}, &before,
-                 progress.part(0.9, 1), result.labels);
+  vote_in_rounds({static_cast<int>(p.ids.size()), *input.disparity, correction.colors, &input},
+                 &before, progress.part(0.9, 1), result.labels);
   replace_layers_by_ids(p.ids, result);
   return result;
 }

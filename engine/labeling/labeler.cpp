@@ -153,6 +153,7 @@ struct Labeler::State {
 
   /// What is corrected: probabilities and which of them are new, in views that were brought.
   struct Corrected {
+    const Scribbles& strokes;
     LabelProbabilities probabilities;
     ChangedRays changed;
     std::vector<SaidNews> news;
@@ -210,8 +211,7 @@ struct Labeler::State {
     std::vector<ViewIndex> near = near_views(everything, correction.first);
     near.push_back(correction.first);
     bring(correction.before, near, progress.part(0.2, 0.25), corrected);
-    const RayLabelingInput input{&corrected.probabilities, disparity.get(), edges.get(),
-                                 light_field.get()};
+    const RayLabelingInput input = input_of(&corrected.probabilities, &corrected.strokes);
     RayCorrection rays{correction.before.labels, corrected.changed, correction.first, *colors};
     rays.complete = [&](const Progress& part) {
       std::vector<ViewIndex> all;
@@ -402,22 +402,27 @@ struct Labeler::State {
     LabelProbabilities& own = labeling.probabilities;
     if (own.grid.count() > 1) {
       const ViewIndex middle{own.first.v + own.grid.v / 2, own.first.u + own.grid.u / 2};
-      judge(learned.parameters, middle, own, progress.part(0, 0.05));
-      regularize_together(learned.parameters, labeling, progress.part(0.05, 1));
+      judge(learned, middle, own, progress.part(0, 0.05));
+      regularize_together(learned.scribbles, learned.parameters, labeling, progress.part(0.05, 1));
     } else {
       regularize_alone(learned, labeling, progress);
     }
   }
 
   /// Has the colors beside boundaries speak for labels, unless disparity that is right does.
-  void judge(const LabelerParameters& parameters, ViewIndex reference, LabelProbabilities& own,
+  void judge(const Learned& learned, ViewIndex reference, LabelProbabilities& own,
              const Progress& progress) {
     if (set.with_disparity && !confidence) return;
     progress.step("finding edges");
     find_edges({own.first, own.grid}, progress.part(0, 0.5));
-    const RayLabelingInput input{nullptr, disparity.get(), edges.get(), light_field.get(),
-                                 keeps_solvers ? &reference_solver : nullptr};
-    reweight_by_color(input, reference, options_of(parameters), progress.part(0.5, 1), own);
+    RayLabelingInput input = input_of(nullptr, &learned.scribbles);
+    if (keeps_solvers) input.kept = &reference_solver;
+    reweight_by_color(input, reference, options_of(learned.parameters), progress.part(0.5, 1), own);
+  }
+
+  [[nodiscard]] RayLabelingInput input_of(const LabelProbabilities* probabilities,
+                                          const Scribbles* strokes) const {
+    return {probabilities, disparity.get(), edges.get(), light_field.get(), nullptr, strokes};
   }
 
   static RayLabelingParameters options_of(const LabelerParameters& parameters) {
@@ -426,13 +431,13 @@ struct Labeler::State {
     return options;
   }
 
-  void regularize_together(const LabelerParameters& parameters, Labeling& labeling,
-                           const Progress& progress) {
+  void regularize_together(const Scribbles& strokes, const LabelerParameters& parameters,
+                           Labeling& labeling, const Progress& progress) {
     const LabelProbabilities& own = labeling.probabilities;
     progress.step("finding edges");
     find_edges({own.first, own.grid}, progress.part(0, 0.05));
     RayLabelingParameters options = options_of(parameters);
-    const RayLabelingInput input{&own, disparity.get(), edges.get(), light_field.get()};
+    const RayLabelingInput input = input_of(&own, &strokes);
     compute([&] {
       options.device = used;
       set_labels(label_rays(input, parameters.regularizer, options, progress.part(0.05, 1)),
@@ -454,9 +459,9 @@ struct Labeler::State {
     around.view(own.first) = std::move(own.views[0]);
     progress.step("labeling neighboring views");
     predict(learned, around, progress.part(0.05, 0.3));
-    judge(learned.parameters, own.first, around, progress.part(0.3, 0.5));
-    const RayLabelingInput input{&around, disparity.get(), edges.get(), light_field.get(),
-                                 keeps_solvers ? &own_solver : nullptr};
+    judge(learned, own.first, around, progress.part(0.3, 0.5));
+    RayLabelingInput input = input_of(&around, &learned.scribbles);
+    if (keeps_solvers) input.kept = &own_solver;
     progress.step("regularizing");
     set_labels(label_view(input, own.first, regularizer, options, progress.part(0.5, 1)), labeling);
     own.views[0] = std::move(around.view(own.first));
@@ -563,7 +568,7 @@ std::optional<Labeling> Labeler::correct(const Scribbles& scribbles,
   progress.step(kLabelingStep);
   const GridShape grid = state_->light_field->grid();
   State::Corrected corrected{
-      empty_probabilities(ids, {{0, 0}, grid}),
+      scribbles, empty_probabilities(ids, {{0, 0}, grid}),
       ChangedRays(grid, before.labels.height(), before.labels.width(), 1, {0, 0},
                   allocate_large_zeros),
       state_->find_news(scribbles, ids, parameters, correction, progress.part(0, 0.3))};
@@ -586,8 +591,8 @@ void Labeler::prepare_correction(const Scribbles& scribbles, const LabelerParame
   state_->find_colors(progress.part(0.9, 1));
 }
 
-Labeling Labeler::smooth(LabelProbabilities probabilities, const LabelerParameters& parameters,
-                         const Progress& progress) {
+Labeling Labeler::smooth(LabelProbabilities probabilities, const Scribbles& scribbles,
+                         const LabelerParameters& parameters, const Progress& progress) {
   const Stopwatch watch;
   require_disparity(parameters.regularizer, state_->disparity != nullptr);
   if (probabilities.grid != state_->light_field->grid()) {
@@ -597,7 +602,7 @@ Labeling Labeler::smooth(LabelProbabilities probabilities, const LabelerParamete
   state_->choose_device(probabilities.grid.count());
   Labeling labeling;
   labeling.probabilities = std::move(probabilities);
-  state_->regularize_together(parameters, labeling, progress);
+  state_->regularize_together(scribbles, parameters, labeling, progress);
   labeling.note = state_->note;
   labeling.seconds = watch.seconds();
   return labeling;

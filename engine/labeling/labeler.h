@@ -73,11 +73,11 @@ struct LabelCorrection {
 /// what lies between a pixel and a stroke, so votes are also weighted by how near the strokes of
 /// each label are along surfaces, exp(−nearness·excess) (predict_from_strokes.h).
 ///
-/// Painted pixels keep their labels in the view where they were painted, before smoothing. Unless
-/// disparity is known to be right (it comes without confidence), the middle view is smoothed first;
-/// its colors then correct labels near boundaries (reweight_by_color.h). Labels are then made
-/// consistent (regularizer.h). With `rayspace`, a single view uses its rays in neighboring views
-/// only, for a quick answer; all views use the rays of all.
+/// Painted pixels keep their labels in the view where they were painted, and smoothing bends to
+/// them. Unless disparity is known to be right (it comes without confidence), the middle view is
+/// smoothed first; its colors then correct labels near boundaries (reweight_by_color.h). Labels are
+/// then made consistent (regularizer.h). With `rayspace`, a single view uses its rays in
+/// neighboring views only, for a quick answer; all views use the rays of all.
 ///
 /// Source: Wanner, Straehle, Goldluecke 2013 [WSG13]. The weightings are additions; what they
 /// gain is in tests/accuracy/tuning.md.
@@ -139,10 +139,10 @@ class Labeler {
                           ViewIndex view, const Progress& progress);
 
   /// Labels of all views from probabilities that are known already: what `label` does after the
-  /// forest. `features` of the parameters says whether disparity makes edges.
-  /// Throws InvalidInput if they do not cover all views, or if rays are to be joined without
-  /// disparity; Cancelled.
-  [[nodiscard]] Labeling smooth(LabelProbabilities probabilities,
+  /// forest. Pixels painted in `scribbles` keep their labels. `features` of the parameters says
+  /// whether disparity makes edges. Throws InvalidInput if they do not cover all views, or if rays
+  /// are to be joined without disparity; Cancelled.
+  [[nodiscard]] Labeling smooth(LabelProbabilities probabilities, const Scribbles& scribbles,
                                 const LabelerParameters& parameters, const Progress& progress);
 
  private:

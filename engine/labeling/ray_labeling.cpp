@@ -3,6 +3,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
+#include "engine/core/scene.h"
 #include "engine/labeling/ray_kernel.h"
 #include "engine/solvers/pair_limits.h"
 
@@ -32,6 +33,40 @@ RayLabeling unlabeled(const LabelProbabilities& p, ViewIndex view) {
   result.labels =
       ViewStack<std::int32_t>({1, 1}, p.view(view).height(), p.view(view).width(), 1, view);
   return result;
+}
+
+Image<std::int32_t> painted_layers(const RayLabelingInput& input, ViewIndex view) {
+  if (input.strokes == nullptr) return {};
+  const auto& views = input.strokes->views;
+  const auto found = std::ranges::find(views, view, &ViewScribbles::view);
+  if (found == views.end()) return {};
+  Image<std::int32_t> layers(found->labels.height(), found->labels.width());
+  const std::vector<std::int32_t>& ids = input.probabilities->ids;
+  std::ranges::transform(found->labels, layers.begin(), [&](std::int32_t id) {
+    const auto place = id > 0 ? std::ranges::find(ids, id) : ids.end();
+    return place == ids.end() ? -1 : static_cast<std::int32_t>(place - ids.begin());
+  });
+  return layers;
+}
+
+float price_of_held(double smoothness) {
+  return static_cast<float>(8 * smoothness + 8);
+}
+
+void hold_painted(const Image<std::int32_t>& painted, float price, VolumeView<float> costs) {
+  for (int y = 0; y < painted.height(); ++y) {
+    for (int x = 0; x < painted.width(); ++x) {
+      if (painted.at(y, x) < 0) continue;
+      for (int l = 0; l < costs.layers; ++l) costs.row(y, l)[x] = price;
+      costs.row(y, painted.at(y, x))[x] = 0;
+    }
+  }
+}
+
+void keep_painted(const Image<std::int32_t>& painted, ImageView<std::int32_t> layers) {
+  for (std::size_t i = 0; i < painted.size(); ++i) {
+    if (painted.data()[i] >= 0) layers.data[i] = painted.data()[i];
+  }
 }
 
 namespace {

@@ -144,6 +144,7 @@ struct RayLabelingParameters {
 };
 
 class KeptSolver;
+struct Scribbles;
 
 /// What is known about the rays; borrowed for the call.
 struct RayLabelingInput {
@@ -160,7 +161,18 @@ struct RayLabelingInput {
   /// Of label_view with one problem a view: begins where the last call with it ended, so that
   /// labels depend on that within the gap. Null = afresh.
   KeptSolver* kept = nullptr;
+  /// Painted pixels keep their labels, and those around them follow. Null = nothing is painted.
+  const Scribbles* strokes = nullptr;
 };
+
+/// Layers of what is painted in a view, `[y][x]`, −1 = nothing. Empty if nothing is.
+[[nodiscard]] Image<std::int32_t> painted_layers(const RayLabelingInput& input, ViewIndex view);
+/// What a pixel that is held pays for another label: more than all its boundaries.
+[[nodiscard]] float price_of_held(double smoothness);
+/// Costs of painted pixels, of which `painted` has the layers: 0, and for other labels `price`.
+void hold_painted(const Image<std::int32_t>& painted, float price, VolumeView<float> costs);
+/// Gives painted pixels their layers.
+void keep_painted(const Image<std::int32_t>& painted, ImageView<std::int32_t> layers);
 
 struct RayLabeling {
   ViewStack<std::int32_t> labels;  ///< Ids, `[v][u][y][x]`, of the requested views.

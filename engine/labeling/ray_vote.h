@@ -22,6 +22,7 @@ struct RayVotes {
   int label_count = 0;
   const DisparityField& disparity;
   const RayColors& colors;
+  const RayLabelingInput* input = nullptr;  ///< Whose strokes rounds of votes keep; null = none.
 };
 [[nodiscard]] ViewStack<std::int32_t> vote_along_rays(const ViewStack<std::int32_t>& labels,
                                                       const RayVotes& votes,

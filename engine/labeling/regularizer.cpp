@@ -3,6 +3,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
+#include "engine/core/scene.h"
 #include "engine/labeling/solve_views.h"
 #include "engine/solvers/linked_labeling.h"
 
@@ -19,6 +20,14 @@
 namespace episcope {
 
 namespace {
+
+void keep_painted(const RayLabelingInput* input, ViewStack<std::int32_t>& layers) {
+  if (input == nullptr || input->strokes == nullptr) return;
+  for (const ViewScribbles& each : input->strokes->views) {
+    if (!layers.contains(each.view)) continue;
+    keep_painted(painted_layers(*input, each.view), layers.view(each.view));
+  }
+}
 
 using LinesOfView = std::array<RayLines, kLinkKinds>;
 
@@ -56,20 +65,44 @@ struct JointProblem {
 
   std::vector<LinesOfView> lines;
   std::vector<Image<float>> weights;
+  std::vector<ProbabilityMap> held;  // With strokes.
   LinkedProblem problem;
 
  private:
   void state(const RayLabelingInput& input, const RayLabelingParameters& parameters);
 };
 
+// Probabilities of a view whose least code, 0, only painted pixels have, of other labels.
+ProbabilityMap with_held(const RayLabelingInput& input, ViewIndex view) {
+  const ProbabilityMap& own = input.probabilities->view(view);
+  ProbabilityMap held(own.height(), own.layers(), own.width());
+  const auto map = own.view();
+  std::transform(map.data, map.data + map.size(), held.view().data,
+                 [](std::uint8_t code) { return std::max(code, std::uint8_t{1}); });
+  const Image<std::int32_t> painted = painted_layers(input, view);
+  for (int y = 0; y < painted.height(); ++y) {
+    for (int x = 0; x < painted.width(); ++x) {
+      if (painted.at(y, x) < 0) continue;
+      for (int l = 0; l < held.layers(); ++l) {
+        held.view().at(y, l, x) = l == painted.at(y, x) ? 255 : 0;
+      }
+    }
+  }
+  return held;
+}
+
 void JointProblem::state(const RayLabelingInput& input, const RayLabelingParameters& parameters) {
   const LabelProbabilities& p = *input.probabilities;
   problem.table = cost_table(parameters.floor);
   problem.smoothness = parameters.smoothness;
   problem.coherence = parameters.coherence;
+  if (input.strokes != nullptr) {
+    problem.table[0] = price_of_held(parameters.smoothness + parameters.coherence);
+    for (int i = 0; i < p.grid.count(); ++i) held.push_back(with_held(input, p.view_at(i)));
+  }
   for (int i = 0; i < p.grid.count(); ++i) {
     LinkedImage& image = problem.images.emplace_back();
-    image.codes = p.views[i].view();
+    image.codes = (held.empty() ? p.views : held)[i].view();
     if (!weights[i].empty()) image.g = weights[i];
     for (int kind = 0; kind < kLinkKinds; ++kind) {
       const RayLines& of_kind = lines[i][kind];
@@ -99,6 +132,7 @@ RayLabeling solve(const RayLabelingInput& input, const RayLabelingParameters& pa
   result.energy = solved.energy;
   result.bound = solved.bound;
   result.iterations = solved.iterations;
+  keep_painted(&input, result.labels);
   return result;
 }
 
@@ -383,8 +417,10 @@ void vote_in_rounds(const RayVotes& votes, const ViewStack<std::int32_t>* before
   const Progress first = progress.part(0, 0.9), others = progress.part(0.9, 1);
   ViewStack<std::int32_t> voted = before ? vote_again_along_rays(*before, labels, votes, first)
                                          : vote_along_rays(labels, votes, first);
+  keep_painted(votes.input, voted);
   for (int round = 1; round < kVotes; ++round) {
     ViewStack<std::int32_t> next = vote_again_along_rays(labels, voted, votes, others);
+    keep_painted(votes.input, next);
     labels = std::move(voted);
     voted = std::move(next);
   }
@@ -399,9 +435,9 @@ RayLabeling smooth_rays(const RayLabelingInput& input, const RayLabelingParamete
   }
   const ViewProblems problems = problems_of(input, parameters, TrackViews::Near, progress);
   RayLabeling result = solve_views(problems, progress.part(0, 0.9));
-  vote_in_rounds(
-      {static_cast<int>(input.probabilities->ids.size()), *input.disparity, problems.colors},
-      nullptr, progress.part(0.9, 1), result.labels);
+  vote_in_rounds({static_cast<int>(input.probabilities->ids.size()), *input.disparity,
+                  problems.colors, &input},
+                 nullptr, progress.part(0.9, 1), result.labels);
   replace_layers_by_ids(input.probabilities->ids, result);
   return result;
 }

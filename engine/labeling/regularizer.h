@@ -139,7 +139,8 @@ struct RegularizerInfo {
                                       const Progress& progress);
 
 /// The votes of `smooth_rays` on `labels`, which are layers. With `before`, from which `labels`
-/// came, only rays vote whose evidence has changed since. Throws Cancelled.
+/// came, only rays vote whose evidence has changed since. Painted pixels keep their labels. Throws
+/// Cancelled.
 void vote_in_rounds(const RayVotes& votes, const ViewStack<std::int32_t>* before,
                     const Progress& progress, ViewStack<std::int32_t>& labels);
 

@@ -123,8 +123,17 @@ ImageView<const std::int32_t> ViewProblem::places_in(ViewIndex last, ViewIndex v
 SimplexResult ViewProblem::solve(const Task& task, const Progress& progress,
                                  ImageView<std::int32_t> labels) {
   const Image<float> g = boundary_weights_of(input_, task.view);
+  const Image<std::int32_t> painted = painted_layers(input_, task.view);
+  hold_painted(painted, price_of_held(parameters_.smoothness), costs_.view());
+  const SimplexResult result =
+      solve(task, {costs_.view(), g, parameters_.smoothness}, progress, labels);
+  keep_painted(painted, labels);
+  return result;
+}
+
+SimplexResult ViewProblem::solve(const Task& task, const SimplexProblem& problem,
+                                 const Progress& progress, ImageView<std::int32_t> labels) {
   SimplexOptions options = simplex_options(parameters_, task.gap);
-  const SimplexProblem problem{costs_.view(), g, parameters_.smoothness};
   if (KeptSolver* const kept = input_.kept) {
     options.goes_on = kept->prepare(*input_.probabilities, task.view);
     if (options.goes_on) options.racing_iterations = kRacingWhenGoingOn;
@@ -233,6 +242,7 @@ bool has_disparity(const RayLabelingInput& input) {
 
 std::vector<cuda::RayView> views_of(const RayLabelingInput& input,
                                     const std::vector<Image<float>>& weights,
+                                    const std::vector<Image<std::int32_t>>& painted,
                                     const ViewStack<std::uint8_t>* colors) {
   const LabelProbabilities& p = *input.probabilities;
   const bool follows_rays = has_disparity(input);
@@ -243,6 +253,7 @@ std::vector<cuda::RayView> views_of(const RayLabelingInput& input,
     cuda::RayView& each = views.emplace_back();
     each.probabilities = p.views[at].view();
     each.weights = weights[at].data();
+    each.painted = painted[at].data();
     if (colors != nullptr) each.colors = colors->view(view).data;
     if (!follows_rays) continue;
     each.disparity = input.disparity->view(view).disparity.data;
@@ -263,11 +274,13 @@ RayLabeling label_on_device(const RayLabelingInput& input, const RayLabelingPara
   const LabelProbabilities& p = *input.probabilities;
   const std::vector<Image<float>> weights = boundary_weights_of(input, progress.part(0, 0.05));
   const CostTable costs = cost_table(parameters.floor);
+  std::vector<Image<std::int32_t>> painted;
+  for (int i = 0; i < p.grid.count(); ++i) painted.push_back(painted_layers(input, p.view_at(i)));
   const ViewStack<std::uint8_t>* const colors =
       labeling.colors != nullptr ? labeling.colors->samples() : nullptr;
   cuda::RayLabelsTask task;
   task.grid = p.grid;
-  task.views = views_of(input, weights, colors);
+  task.views = views_of(input, weights, painted, colors);
   task.chains = chains_of(p.grid);
   task.costs = costs;
   task.tolerance_px = kSamePointTolerance_px;
@@ -278,6 +291,7 @@ RayLabeling label_on_device(const RayLabelingInput& input, const RayLabelingPara
   }
   task.votes = labeling.votes;
   task.smoothness = parameters.smoothness;
+  task.price_of_held = price_of_held(parameters.smoothness);
   task.gap = parameters.gap_all_views;
   task.max_iterations = parameters.max_iterations;
   task.check_every = kGapCheckEvery;
@@ -289,6 +303,9 @@ RayLabeling label_on_device(const RayLabelingInput& input, const RayLabelingPara
   result.energy = answer.energy;
   result.bound = answer.bound;
   result.iterations = answer.iterations;
+  for (int i = 0; i < p.grid.count(); ++i) {
+    keep_painted(painted[static_cast<std::size_t>(i)], result.labels.view(p.view_at(i)));
+  }
   replace_layers_by_ids(p.ids, result);
   return result;
 }

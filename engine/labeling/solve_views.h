@@ -86,6 +86,8 @@ class ViewProblem {
   SimplexResult solve(const Task& task, const Progress& progress, ImageView<std::int32_t> labels);
 
  private:
+  SimplexResult solve(const Task& task, const SimplexProblem& problem, const Progress& progress,
+                      ImageView<std::int32_t> labels);
   [[nodiscard]] ImageView<const std::int32_t> places_in(ViewIndex last, ViewIndex view);
   [[nodiscard]] SimplexSolver& own_solver();
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "engine/core/error.h"
 #include "engine/labeling/labeler.h"
 #include "engine/scenes/recipes.h"
 #include "tests/cuda/label_runs.h"
@@ -33,6 +34,13 @@ LabelRun whole_labeler(const Scene& scene) {
     labeler.compute_on(device);
     const Labeling labeling =
         labeler.label(*strokes, {}, {{0, 0}, scene.light_field->grid()}, Progress());
+    const Image<std::int32_t>& painted = strokes->views[0].labels;
+    const auto kept = labeling.labels.view(strokes->views[0].view);
+    for (std::size_t i = 0; i < painted.size(); ++i) {
+      if (painted.data()[i] > 0 && kept.data[i] != painted.data()[i]) {
+        throw InvalidInput("a painted pixel has lost its label");
+      }
+    }
     std::vector<std::uint8_t> bytes(labeling.labels.size());
     std::transform(labeling.labels.data(), labeling.labels.data() + bytes.size(), bytes.begin(),
                    [](std::int32_t label) { return static_cast<std::uint8_t>(label); });

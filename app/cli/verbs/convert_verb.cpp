@@ -385,7 +385,8 @@ void check_label_folder(const ConvertRequest& request) {
 }
 
 /// Writes the labels of a segmentation file.
-void write_segmented(const ConvertRequest& request, io::LabelForm form, const Progress& progress) {
+std::string write_segmented(const ConvertRequest& request, io::LabelForm form,
+                            const Progress& progress) {
   const io::SegmentationFile file(request.input);
   const LabelingPtr kept = read_kept_labels(request.input, progress.part(0, 0.2));
   io::LabelSource source{kept->labels, file.infos()};
@@ -396,12 +397,12 @@ void write_segmented(const ConvertRequest& request, io::LabelForm form, const Pr
     source.pictures = scene.light_field;
     source.places = io::label_places(scene);
   }
-  io::write_label_folder(request.output, form, source, progress.part(0.4, 1));
+  return io::write_label_folder(request.output, form, source, progress.part(0.4, 1));
 }
 
 /// Writes the labels of a light field, with its views.
-void write_labels_of_scene(const ConvertRequest& request, io::LabelForm form, Job& job,
-                           const Progress& progress) {
+std::string write_labels_of_scene(const ConvertRequest& request, io::LabelForm form, Job& job,
+                                  const Progress& progress) {
   Scene scene = load_input(request.input, request.read, progress.part(0, 0.3));
   for (const auto& warning : scene.convention.warnings) job.note(warning);
   const auto given = given_labels(scene, request, job, progress.part(0.3, 0.5));
@@ -409,7 +410,7 @@ void write_labels_of_scene(const ConvertRequest& request, io::LabelForm form, Jo
   if (labels.empty()) {
     throw InvalidInput(request.input + " has no labels; name some with --labels");
   }
-  io::write_label_folder(
+  return io::write_label_folder(
       request.output, form,
       {labels, scene.scribbles.labels, scene.light_field, io::label_places(scene)},
       progress.part(0.5, 1));
@@ -431,11 +432,10 @@ void write_labels_of_scene(const ConvertRequest& request, io::LabelForm form, Jo
 [[nodiscard]] Json convert_labels(const ConvertRequest& request, io::LabelForm form, Job& job,
                                   const Progress& progress) {
   check_label_folder(request);
-  if (request.labels.file.empty() && io::is_segmentation_file(request.input)) {
-    write_segmented(request, form, progress);
-  } else {
-    write_labels_of_scene(request, form, job, progress);
-  }
+  const bool is_segmented = request.labels.file.empty() && io::is_segmentation_file(request.input);
+  const std::string told = is_segmented ? write_segmented(request, form, progress)
+                                        : write_labels_of_scene(request, form, job, progress);
+  if (!told.empty()) job.note(told);
   job.finish();
   return written(request, request.form);
 }

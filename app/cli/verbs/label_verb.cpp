@@ -198,7 +198,8 @@ Labeling label_views(Labeler& labeler, GivenSources& given, const LabelRequest& 
   if (!given.probabilities) {
     return labeler.label(given.scribbles, request.parameters, {{0, 0}, grid}, progress);
   }
-  return labeler.smooth(std::move(*given.probabilities), request.parameters, progress);
+  return labeler.smooth(std::move(*given.probabilities), given.scribbles, request.parameters,
+                        progress);
 }
 
 /// What the archive calls features with disparity has an estimate even where labels use the truth.

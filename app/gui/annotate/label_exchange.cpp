@@ -12,6 +12,7 @@
 #include "app/session/label_review.h"
 #include "app/session/picture.h"
 #include "engine/io/base/image_file.h"
+#include "engine/io/models/labels/color_table.h"
 #include "engine/io/models/scribble_file.h"
 #include "widgets/controls/layout.h"
 #include "widgets/controls/picture.h"
@@ -107,14 +108,22 @@ class ImportLabelsDialog : public QDialog {
 
   void showLabels(const LightField& field, ViewIndex view,
                   std::shared_ptr<const io::ImportedLabels> labels);
+  /// The labels that a signal asked for are shown, or cannot be read.
+  void readEnded();
+  /// Waits for labels that were asked for.
+  void accept() override;
   [[nodiscard]] const std::shared_ptr<const io::ImportedLabels>& labels() const { return labels_; }
   [[nodiscard]] LabelUse chosenUse() const { return static_cast<LabelUse>(uses_->checkedId()); }
 
  signals:
   /// Other ids are to count as unlabeled; nothing: those that usually do.
   void ignoredChanged(const std::optional<std::vector<std::int32_t>>& ids);
+  void tableChosen(const QString& path);
 
  private:
+  /// Whether it holds ids, or nothing.
+  bool takeIgnored();
+  void askForTable();
   void addUse(LabelUse use, const QString& name, const QString& text);
 
   QLabel* preview_;
@@ -124,6 +133,9 @@ class ImportLabelsDialog : public QDialog {
   QButtonGroup* uses_;
   QVBoxLayout* layout_;
   std::shared_ptr<const io::ImportedLabels> labels_;
+  int reading_ = 0;        // What was asked for,
+  bool is_stale_ = false;  // and is not yet shown.
+  bool is_accepted_ = false;
 };
 
 ImportLabelsDialog::ImportLabelsDialog(QWidget* parent, bool has_labels)
@@ -145,6 +157,11 @@ ImportLabelsDialog::ImportLabelsDialog(QWidget* parent, bool has_labels)
   layout_->addWidget(notes_);
   auto* form = new QFormLayout;
   form->addRow(tr("Unlabeled"), ignored_);
+  auto* table = named("importLabels.table", new QPushButton(tr("Table…"), this));
+  table->setAutoDefault(false);
+  table->setToolTip(tr("What the colors of pictures mean: lines r,g,b,id,name, or a labelmap.txt"));
+  connect(table, &QPushButton::clicked, this, &ImportLabelsDialog::askForTable);
+  form->addRow(tr("Colors"), table);
   layout_->addLayout(form);
   addUse(LabelUse::Strokes, "strokes", tr("As &strokes: the segmentation is learned from them"));
   addUse(LabelUse::Segmentation, "segmentation",
@@ -161,13 +178,43 @@ ImportLabelsDialog::ImportLabelsDialog(QWidget* parent, bool has_labels)
   connect(uses_, &QButtonGroup::idToggled, this,
           [=, this] { warning->setVisible(has_labels && chosenUse() == LabelUse::Segmentation); });
   layout_->addWidget(make_answers(this, "importLabels.import", tr("Import")));
-  connect(ignored_, &QLineEdit::editingFinished, this, [this] {
-    if (!ignored_->isModified()) return;
-    ignored_->setModified(false);
-    const QString text = ignored_->text().trimmed();
-    const auto ids = ids_in(text == "-" ? QString() : text);
-    if (ids) emit ignoredChanged(text.isEmpty() ? std::nullopt : ids);
-  });
+  connect(ignored_, &QLineEdit::editingFinished, this, &ImportLabelsDialog::takeIgnored);
+}
+
+bool ImportLabelsDialog::takeIgnored() {
+  const QString text = ignored_->text().trimmed();
+  const auto ids = ids_in(text == "-" ? QString() : text);
+  if (!ids || !ignored_->isModified()) return ids.has_value();
+  ignored_->setModified(false);
+  ++reading_;
+  is_stale_ = true;
+  emit ignoredChanged(text.isEmpty() ? std::nullopt : ids);
+  return true;
+}
+
+void ImportLabelsDialog::askForTable() {
+  ask_for_file(this,
+               {.name = "import_color_table",
+                .title = tr("Table of colors"),
+                .filter = tr("Tables (*.csv *.txt);;All files (*)")},
+               [this](const QString& path) {
+                 ++reading_;
+                 is_stale_ = true;
+                 emit tableChosen(path);
+               });
+}
+
+void ImportLabelsDialog::readEnded() {
+  if (reading_ == 0 || --reading_ > 0) return;
+  if (is_stale_) ignored_->setModified(true);  // what is shown is not what was asked for
+  const bool goes_on = std::exchange(is_accepted_, false) && !is_stale_;
+  if (goes_on) QDialog::accept();
+}
+
+void ImportLabelsDialog::accept() {
+  if (!takeIgnored()) return ignored_->setFocus();
+  is_accepted_ = reading_ > 0;
+  if (!is_accepted_) QDialog::accept();
 }
 
 void ImportLabelsDialog::addUse(LabelUse use, const QString& name, const QString& text) {
@@ -179,6 +226,7 @@ void ImportLabelsDialog::addUse(LabelUse use, const QString& name, const QString
 void ImportLabelsDialog::showLabels(const LightField& field, ViewIndex view,
                                     std::shared_ptr<const io::ImportedLabels> labels) {
   labels_ = std::move(labels);
+  is_stale_ = false;
   const Scribbles& scribbles = labels_->scribbles;
   const ViewScribbles& shown = nearest_view(scribbles, view);
   const QImage picture = preview_of(field, shown, scribbles.labels);
@@ -221,7 +269,7 @@ LabelImporter::LabelImporter(const Workbench& bench, AnnotationBar* bar)
 
 void LabelImporter::ask() {
   if (!document_.document()) return;
-  ask_for_files(
+  ask_for_files_or_folder(
       &bench_.window,
       {.name = "import_labels",
        .title = tr("Import labels"),
@@ -232,11 +280,12 @@ void LabelImporter::ask() {
 
 void LabelImporter::open(const QStringList& paths) {
   if (dialog_) dialog_->close();
-  read(paths, std::nullopt);
+  asked_ = {paths};
+  read();
 }
 
-void LabelImporter::read(const QStringList& paths,
-                         std::optional<std::vector<std::int32_t>> ignored) {
+void LabelImporter::read() {
+  const QStringList& paths = asked_.paths;
   if (!document_.document() || paths.isEmpty()) return;
   QStringList files = paths;
   // A picture that was exported stands for all of them.
@@ -247,12 +296,14 @@ void LabelImporter::read(const QStringList& paths,
   using Read = std::shared_ptr<io::ImportedLabels>;
   bench_.jobs.start<Read>(
       Lane::Load, tr("Importing %1").arg(first.fileName()),
-      [scene = session_.scene(), files, ignored = std::move(ignored),
+      [scene = session_.scene(), files, asked = asked_,
        known = document_.document()->labels().labels()](const Progress& progress) {
         std::vector<std::filesystem::path> places;
         for (const QString& file : files) places.push_back(path_of(file));
-        auto labels = std::make_shared<io::ImportedLabels>(io::read_labels(
-            places, *scene, {.known = {known.begin(), known.end()}, .ignored = ignored}, progress));
+        io::LabelReading reading{.known = {known.begin(), known.end()}, .ignored = asked.ignored};
+        if (!asked.table.isEmpty()) reading.table = io::read_color_table(path_of(asked.table));
+        auto labels = std::make_shared<io::ImportedLabels>(
+            io::read_labels(places, *scene, reading, progress));
         const std::string renumbered =
             io::renumber_labels(labels->scribbles, LabelSet::kMaxId, {known.begin(), known.end()});
         if (!renumbered.empty()) labels->notes.push_back(renumbered);
@@ -262,6 +313,9 @@ void LabelImporter::read(const QStringList& paths,
       },
       [this, paths, generation = session_.generation()](const Read& labels) {
         if (generation == session_.generation()) show(paths, labels);
+      },
+      [dialog = dialog_] {
+        if (dialog) dialog->readEnded();
       });
 }
 
@@ -276,7 +330,14 @@ void LabelImporter::show(const QStringList& paths, std::shared_ptr<io::ImportedL
   dialog_ = new ImportLabelsDialog(&bench_.window, has_labels);
   dialog_->showLabels(*field, session_.view(), std::move(labels));
   connect(dialog_, &ImportLabelsDialog::ignoredChanged, this,
-          [this, paths](const std::optional<std::vector<std::int32_t>>& ids) { read(paths, ids); });
+          [this](const std::optional<std::vector<std::int32_t>>& ids) {
+            asked_.ignored = ids;
+            read();
+          });
+  connect(dialog_, &ImportLabelsDialog::tableChosen, this, [this](const QString& path) {
+    asked_.table = path;
+    read();
+  });
   connect(dialog_, &QDialog::accepted, this,
           [this, dialog = dialog_.data(), paths, generation = session_.generation()] {
             if (generation != session_.generation()) return;
@@ -328,9 +389,13 @@ bool LabelImporter::eventFilter(QObject* watched, QEvent* event) {
     return QObject::eventFilter(watched, event);
   }
   auto* drop = static_cast<QDropEvent*>(event);
+  const LightField& field = *session_.light_field();
+  const io::FieldShape shape{field.grid(), field.height(), field.width()};
   QStringList paths;
   for (const QUrl& url : drop->mimeData()->urls()) {
-    if (!url.isLocalFile() || !io::holds_labels_only(path_of(url.toLocalFile()))) return false;
+    if (!url.isLocalFile() || !io::holds_labels_only(path_of(url.toLocalFile()), &shape)) {
+      return false;
+    }
     paths << url.toLocalFile();
   }
   if (paths.isEmpty()) return false;
@@ -459,14 +524,15 @@ void ask_to_export_labels(const Workbench& bench, const SegmentController& segme
 
 namespace {
 
-void write_folder(const std::filesystem::path& folder, const Segmentation& segmentation,
-                  const LabelTarget& target, const Scene& scene, const Progress& progress) {
+std::string write_folder(const std::filesystem::path& folder, const Segmentation& segmentation,
+                         const LabelTarget& target, const Scene& scene, const Progress& progress) {
   const Labeling& labeling = *segmentation.labeling;
   const auto labels = finished_labels(labeling, segmentation.finish, progress.part(0, 0.3));
-  io::write_label_folder(folder, target.form,
-                         {labels, infos_of(labeling.probabilities.ids, segmentation.labels),
-                          target.has_views ? scene.light_field : nullptr, io::label_places(scene)},
-                         progress.part(0.3, 1));
+  return io::write_label_folder(
+      folder, target.form,
+      {labels, infos_of(labeling.probabilities.ids, segmentation.labels),
+       target.has_views ? scene.light_field : nullptr, io::label_places(scene)},
+      progress.part(0.3, 1));
 }
 
 }  // namespace
@@ -478,6 +544,7 @@ void export_labels(const Workbench& bench, const SegmentController& segment, con
   if (!segmentation) return;
   const std::filesystem::path place = path_of(path);
   std::function<void(const Progress&)> write;
+  const auto told = std::make_shared<std::string>();
   if (target.kind == Kind::Picture) {
     const auto source = segment.map_source(render::Quantity::Segmentation, bench.session.view());
     if (!source || !has_suffix(path, {"png"}, bench.messages)) return;
@@ -485,8 +552,9 @@ void export_labels(const Workbench& bench, const SegmentController& segment, con
       io::write_picture(place, map_picture(*make_map(source), {}).view());
     };
   } else if (target.kind == Kind::Folder) {
-    write = [place, segmentation, target, scene = bench.session.scene()](const Progress& progress) {
-      write_folder(place, *segmentation, target, *scene, progress);
+    write = [place, segmentation, target, told,
+             scene = bench.session.scene()](const Progress& progress) {
+      *told = write_folder(place, *segmentation, target, *scene, progress);
     };
   } else {
     if (!has_suffix(path, {"h5"}, bench.messages)) return;
@@ -499,9 +567,10 @@ void export_labels(const Workbench& bench, const SegmentController& segment, con
   }
   write_labels_in_background(
       bench, segment, path, write,
-      [bench, is_whole = target.kind != Kind::Picture, scene = bench.session.generation(),
+      [bench, told, is_whole = target.kind != Kind::Picture, scene = bench.session.generation(),
        labeling = bench.session.labels().labeling] {
         if (is_whole) bench.session.mark_labels_saved(scene, labeling);
+        if (!told->empty()) bench.messages.hint(QString::fromStdString(*told));
       });
 }
 

@@ -54,7 +54,13 @@ class LabelImporter : public QObject {
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
-  void read(const QStringList& paths, std::optional<std::vector<std::int32_t>> ignored);
+  /// What is to be read, and how.
+  struct Asked {
+    QStringList paths{};
+    std::optional<std::vector<std::int32_t>> ignored{};
+    QString table{};  ///< Of colors; empty = none.
+  };
+  void read();
   void show(const QStringList& paths, std::shared_ptr<io::ImportedLabels> labels);
   void useAsSegmentation(const io::ImportedLabels& labels);
 
@@ -62,6 +68,7 @@ class LabelImporter : public QObject {
   Session& session_;
   DocumentController& document_;
   QPointer<ImportLabelsDialog> dialog_;
+  Asked asked_;
 };
 
 /// Form in which labels are exported.

@@ -414,12 +414,11 @@ SegmentController::State SegmentController::state() const {
       break;
   }
   if (!session_.scene()) return {{}, ChipMood::Quiet};
-  if (!live_.labeling(session_.view()) && !awaiting_.contains(session_.generation())) {
-    return {tr("idle"), ChipMood::Quiet};
-  }
   if (awaiting_.contains(session_.generation())) {
     return {tr("waiting for the disparity …"), ChipMood::Busy};
   }
+  if (isSegmentingAll()) return {tr("labeling …"), ChipMood::Busy};
+  if (!live_.labeling(session_.view())) return {tr("idle"), ChipMood::Quiet};
   if (live_.is_before_strokes(session_.view())) {
     return {tr("before the last stroke"), ChipMood::Stale};
   }
@@ -499,8 +498,10 @@ void SegmentController::startAllViews() {
         } else {
           session_.set_labels(scene, kept_labels(labeling, infos, *input));
         }
-      });
+      },
+      [this] { showState(); });
   jobs_.setScene(job, scene);
+  showState();
 }
 
 bool SegmentController::isSegmentingAll() const {

@@ -93,6 +93,7 @@ class FileOrFolderDialog : public QFileDialog {
 
   void takeFolder(const QString& folder) {
     emit fileSelected(folder);
+    emit filesSelected({folder});
     reject();
   }
 
@@ -155,8 +156,10 @@ void ask_for_file(QWidget* window, const FileQuestion& question, Answer answer) 
   dialog->open();
 }
 
-void ask_for_file_or_folder(QWidget* window, const FileQuestion& question, Answer answer) {
-  auto* dialog = make_open_dialog<FileOrFolderDialog>(window, question, std::move(answer));
+namespace {
+
+FileOrFolderDialog* make_file_or_folder_dialog(QWidget* window, const FileQuestion& question) {
+  auto* dialog = make_open_dialog<FileOrFolderDialog>(window, question);
   dialog->setOption(QFileDialog::DontUseNativeDialog);  // those take either files or folders
   dialog->setFileMode(QFileDialog::ExistingFile);
   auto* buttons = dialog->findChild<QDialogButtonBox*>();
@@ -168,6 +171,22 @@ void ask_for_file_or_folder(QWidget* window, const FileQuestion& question, Answe
     const QString marked = dialog->selectedFiles().value(0);
     dialog->takeFolder(QFileInfo(marked).isDir() ? marked : dialog->directory().absolutePath());
   });
+  return dialog;
+}
+
+}  // namespace
+
+void ask_for_file_or_folder(QWidget* window, const FileQuestion& question, Answer answer) {
+  FileOrFolderDialog* dialog = make_file_or_folder_dialog(window, question);
+  QObject::connect(dialog, &QFileDialog::fileSelected, window, std::move(answer));
+  dialog->open();
+}
+
+void ask_for_files_or_folder(QWidget* window, const FileQuestion& question,
+                             std::function<void(const QStringList&)> answer) {
+  FileOrFolderDialog* dialog = make_file_or_folder_dialog(window, question);
+  QObject::connect(dialog, &QFileDialog::filesSelected, window, std::move(answer));
+  dialog->setFileMode(QFileDialog::ExistingFiles);
   dialog->open();
 }
 

@@ -42,6 +42,9 @@ void ask_for_file_or_folder(QWidget* window, const FileQuestion& question, Answe
 /// Asks for one or more files.
 void ask_for_files(QWidget* window, const FileQuestion& question,
                    std::function<void(const QStringList& paths)> answer);
+/// Likewise, or for a folder as ask_for_file_or_folder.
+void ask_for_files_or_folder(QWidget* window, const FileQuestion& question,
+                             std::function<void(const QStringList& paths)> answer);
 void ask_for_folder(QWidget* window, const FileQuestion& question, Answer answer);
 /// Begins in the folder of the proposal; if it is only a name, in the first of these where files
 /// can be made: beside the light field in front, where a file was saved last, at home.

@@ -411,6 +411,40 @@ std::vector<PixelIndex> black_wedges(ImageView<const T> center) {
   return all;
 }
 
+/// Of the pixels of wedges those that are not dark and hang together with pixels beside the wedges:
+/// what dark ones enclose is noise.
+template <class IsDark>
+Image<std::uint8_t> seen_in(const Image<std::uint8_t>& is_wedge, const IsDark& is_dark) {
+  const int height = is_wedge.height(), width = is_wedge.width();
+  Image<std::uint8_t> seen(is_wedge.height(), is_wedge.width());
+  std::vector<PixelIndex> next;
+  const auto visit_neighbors = [&](PixelIndex at, const auto& visit) {
+    for (const auto [dy, dx] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+      const PixelIndex other{at.y + dy, at.x + dx};
+      if (other.y >= 0 && other.y < height && other.x >= 0 && other.x < width) visit(other);
+    }
+  };
+  const auto take = [&](PixelIndex at) {
+    if (is_wedge.at(at.y, at.x) == 0 || seen.at(at.y, at.x) != 0 || is_dark(at)) return;
+    seen.at(at.y, at.x) = 1;
+    next.push_back(at);
+  };
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      if (is_wedge.at(y, x) == 0) continue;
+      bool is_at_border = false;
+      visit_neighbors({y, x}, [&](PixelIndex at) { is_at_border |= is_wedge.at(at.y, at.x) == 0; });
+      if (is_at_border) take({y, x});
+    }
+  }
+  while (!next.empty()) {
+    const PixelIndex at = next.back();
+    next.pop_back();
+    visit_neighbors(at, take);
+  }
+  return seen;
+}
+
 template <class T>
 std::string mark(const ViewStack<T>& views, ViewStack<std::uint8_t>& valid,
                  const Progress& progress) {
@@ -430,10 +464,14 @@ std::string mark(const ViewStack<T>& views, ViewStack<std::uint8_t>& valid,
   const auto all = static_cast<double>(wedges.size()) * grid.count();
   if (static_cast<double>(total) < kShared * all) return {};
   if (valid.empty()) valid = all_valid(grid, views.height(), views.width());
+  Image<std::uint8_t> is_wedge(views.height(), views.width());
+  for (const PixelIndex at : wedges) is_wedge.at(at.y, at.x) = 1;
   parallel_for(grid.count(), progress, [&](int i) {
     const ViewIndex view = grid.view_at(i);
+    const Image<std::uint8_t> seen =
+        seen_in(is_wedge, [&](PixelIndex at) { return is_dark(view, at); });
     for (const PixelIndex at : wedges) {
-      if (is_dark(view, at)) valid.view(view).at(at.y, at.x) = 0;
+      if (seen.at(at.y, at.x) == 0) valid.view(view).at(at.y, at.x) = 0;
     }
   });
   return fmt::format(finding_text("valid.corners"),

@@ -68,7 +68,9 @@ class LabelerTest : public QObject {
   void oneView_comesAsADraftFirst();
   void nextStroke_goesOnFromTheLastLabels();
   void strokesOnAnotherView_count();
+  void paintedPixels_keepTheirLabels_data();
   void paintedPixels_keepTheirLabels();
+  void correctedPixels_keepTheirLabels();
   void result_dependsNeitherOnThreads_norOnEarlierCalls();
   void forest_isGrownAgainOnlyForOtherStrokesOrOptions();
   void badInput_isToldInASentence();
@@ -159,20 +161,74 @@ void LabelerTest::strokesOnAnotherView_count() {
   QVERIFY(accuracy(labeling) > 0.95);
 }
 
-void LabelerTest::paintedPixels_keepTheirLabels() {
-  // A short stroke of the box in the midst of the ground: nobody but the user can know why.
+namespace {
+
+std::int64_t count_of(const ViewStack<std::int32_t>& labels, std::int32_t label) {
+  return std::count(labels.data(), labels.data() + labels.size(), label);
+}
+
+// A short stroke of the box in the midst of the ground, in two views: nobody but the user can know
+// why. And a single pixel.
+Scribbles with_island() {
   Scribbles scribbles = scene().scribbles;
   auto& painted = scribbles.views[0].labels;
   for (int x = 40; x < 60; ++x) painted.at(88, x) = painted.at(89, x) = 3;
-  const ViewIndex view = scribbles.views[0].view;
+  painted.at(80, 20) = 3;
+  Image<std::int32_t> corner(kSize, kSize);
+  for (int x = 30; x < 40; ++x) corner.at(70, x) = 3;
+  scribbles.views.push_back({{0, 0}, std::move(corner)});
+  return scribbles;
+}
+
+// Painted pixels of another label.
+int lost_pixels(const Scribbles& scribbles, const Labeling& labeling) {
+  int lost = 0;
+  for (const ViewScribbles& painted : scribbles.views) {
+    if (!labeling.labels.contains(painted.view)) continue;
+    const auto labels = labeling.labels.view(painted.view);
+    for (std::size_t i = 0; i < painted.labels.size(); ++i) {
+      const std::int32_t id = painted.labels.data()[i];
+      lost += id > 0 && labels.data[i] != id ? 1 : 0;
+    }
+  }
+  return lost;
+}
+
+}  // namespace
+
+void LabelerTest::paintedPixels_keepTheirLabels_data() {
+  QTest::addColumn<Regularizer>("regularizer");
+  QTest::addColumn<ViewRectangle>("views");
+  for (const auto& regularizer : names_of(Regularizer{})) {
+    QTest::addRow("%s, all views", regularizer.name) << regularizer.value << kAll;
+    QTest::addRow("%s, one view", regularizer.name)
+        << regularizer.value << ViewRectangle{{1, 1}, {1, 1}};
+  }
+}
+
+void LabelerTest::paintedPixels_keepTheirLabels() {
+  QFETCH(Regularizer, regularizer);
+  QFETCH(ViewRectangle, views);
+  const Scribbles scribbles = with_island();
 
   const Labeling labeling = new_labeler().label(
-      scribbles, parameters(FeatureSet::ImageTruth, Regularizer::None), {view, {1, 1}}, Progress());
+      scribbles, parameters(FeatureSet::ImageTruth, regularizer), views, Progress());
 
-  const auto labels = labeling.labels.view(view);
-  for (std::size_t i = 0; i < painted.size(); ++i) {
-    if (painted.data()[i] > 0) QCOMPARE(labels.data[i], painted.data()[i]);
-  }
+  QCOMPARE(lost_pixels(scribbles, labeling), 0);
+}
+
+void LabelerTest::correctedPixels_keepTheirLabels() {
+  const LabelerParameters how = parameters(FeatureSet::ImageTruth, Regularizer::Rayspace);
+  Labeler labeler = new_labeler();
+  const Scribbles scribbles = with_island();
+  const Labeling before = labeler.label(scene().scribbles, how, kAll, Progress());
+  const Labeling anew = labeler.label(scribbles, how, kAll, Progress());
+
+  const auto corrected =
+      labeler.correct(scribbles, how, {before, scene().scribbles, {1, 1}}, Progress());
+
+  QVERIFY(corrected);
+  QCOMPARE(lost_pixels(scribbles, *corrected), 0);
 }
 
 void LabelerTest::result_dependsNeitherOnThreads_norOnEarlierCalls() {
@@ -275,10 +331,6 @@ Scribbles with_mistake(std::int32_t label) {
     }
   }
   return painted;
-}
-
-std::int64_t count_of(const ViewStack<std::int32_t>& labels, std::int32_t label) {
-  return std::count(labels.data(), labels.data() + labels.size(), label);
 }
 
 }  // namespace

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <fstream>
 #include <optional>
-#include <set>
 #include <utility>
 
 namespace episcope::io {
@@ -31,13 +30,15 @@ std::vector<std::string> cells_of(std::string_view line, std::size_t most) {
                                  : line.find(';') != line.npos ? ";"
                                                                : " \t";
   std::vector<std::string> cells;
-  std::string_view rest = trimmed(line, kQuotesAndBlanks);
+  std::string_view rest = trimmed(line);
   while (!rest.empty() && cells.size() + 1 < most) {
     const std::size_t end = std::min(rest.find_first_of(marks), rest.size());
     cells.emplace_back(trimmed(rest.substr(0, end), kQuotesAndBlanks));
     rest.remove_prefix(std::min(end + 1, rest.size()));
-    rest = trimmed(rest, kQuotesAndBlanks);
+    rest = trimmed(rest);
   }
+  const bool is_quoted = rest.size() > 1 && rest.front() == '"' && rest.back() == '"';
+  if (is_quoted) rest = trimmed(rest, kQuotesAndBlanks);
   if (!rest.empty()) cells.emplace_back(rest);
   return cells;
 }
@@ -69,7 +70,6 @@ std::optional<LabelInfo> row_of(const std::string& line) {
 }
 
 constexpr const char* kBackground = "background";
-constexpr const char* kLabelMap = "labelmap.txt";
 
 /// A line `name:r,g,b:parts:actions`, whose id is not yet known; empty for another one.
 std::optional<LabelInfo> label_map_row(const std::string& line) {
@@ -148,9 +148,7 @@ fs::path label_map_beside(const fs::path& folder) {
 void write_label_map_text(const fs::path& path, const std::vector<LabelInfo>& labels) {
   std::string text = "# label:color_rgb:parts:actions\n";
   text += std::string(kBackground) + ":0,0,0::\n";
-  std::set<Rgb> written{Rgb{}};
   for (const LabelInfo& label : labels) {
-    if (!written.insert(label.color).second) continue;  // the form has one label a color
     std::string name = label.name;
     std::ranges::replace(name, ':', ' ');
     if (name == kBackground) name += fmt::format("_{}", label.id);  // a name of its own

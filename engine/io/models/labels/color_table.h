@@ -16,10 +16,12 @@ namespace episcope::io {
 /// IoError, naming the line, for other lines and for a color that stands there twice.
 [[nodiscard]] std::vector<LabelInfo> read_color_table(const std::filesystem::path& path);
 
-/// Writes `labelmap.txt` as CVAT and Datumaro have it, with a background in black; of labels of one
-/// color only the first; a label called background becomes background_ID. Atomic. Throws IoError.
+/// Writes `labelmap.txt` as CVAT and Datumaro have it, with a background in black; a label
+/// called background becomes background_ID. Precondition: colors are distinct, and none is black.
+/// Atomic. Throws IoError.
 void write_label_map_text(const std::filesystem::path& path, const std::vector<LabelInfo>& labels);
 
+inline constexpr const char* kLabelMap = "labelmap.txt";
 /// `labelmap.txt` in a folder or, as VOC folders have it, in the one around; empty if there is
 /// none.
 [[nodiscard]] std::filesystem::path label_map_beside(const std::filesystem::path& folder);

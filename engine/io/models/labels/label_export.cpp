@@ -2,6 +2,8 @@
 #include "engine/io/models/labels/label_export.h"
 
 #include "engine/core/error.h"
+#include "engine/core/finding.h"
+#include "engine/core/text.h"
 #include "engine/io/base/atomic_file.h"
 #include "engine/io/base/files.h"
 #include "engine/io/base/image_file.h"
@@ -93,11 +95,6 @@ struct LabelFolder {
   }
 
   void write_picture(const fs::path& path, ImageView<const std::int32_t> labels) const {
-    if (largest > kLargestGray) {
-      throw IoError(path, fmt::format("pictures hold ids up to {}, but a label has {}; choose COCO "
-                                      "or labelme",
-                                      kLargestGray, largest));
-    }
     if (largest > kLargestIndex) return write_png(path, narrowed<std::uint16_t>(labels).view());
     write_indexed_png(path, narrowed<std::uint8_t>(labels).view(), palette);
   }
@@ -148,14 +145,57 @@ void write_views(const LabelFolder& folder, LabelForm form, const LabelSource& s
   }
 }
 
+std::string told_apart(const std::vector<std::string>& changes) {
+  if (changes.empty()) return {};
+  return fmt::format(finding_text("labels.told_apart"),
+                     joined(changes, ", ", [](const std::string& one) { return one; }));
+}
+
+/// Colors that another label has, and black, which is unlabeled, become the next free ones.
+std::string tell_colors_apart(std::vector<LabelInfo>& infos) {
+  std::set<Rgb> used{Rgb{}};
+  for (const LabelInfo& label : infos) used.insert(label.color);
+  std::set<Rgb> given{Rgb{}};
+  std::vector<std::string> changes;
+  for (LabelInfo& label : infos) {
+    if (given.insert(label.color).second) continue;
+    while (!used.insert(label.color).second) {
+      for (std::size_t c = 3; c-- > 0 && ++label.color[c] == 0;) {
+      }
+    }
+    changes.push_back(fmt::format("{} ({}) is {}", label.id, label.name, color_text(label.color)));
+  }
+  return told_apart(changes);
+}
+
+std::string names_told_apart(const std::vector<LabelInfo>& infos) {
+  const std::vector<std::string> names = distinct_names(infos);
+  std::vector<std::string> changes;
+  for (std::size_t i = 0; i < infos.size(); ++i) {
+    if (names[i] != infos[i].name)
+      changes.push_back(fmt::format("{} is {}", infos[i].id, names[i]));
+  }
+  return told_apart(changes);
+}
+
 }  // namespace
 
-void write_label_folder(const fs::path& folder, LabelForm form, const LabelSource& source,
-                        const Progress& progress) {
+std::string write_label_folder(const fs::path& folder, LabelForm form, const LabelSource& source,
+                               const Progress& progress) {
   progress.check();
   progress.step("writing " + folder.filename().string());
+  std::vector<LabelInfo> infos = infos_of(source);
+  const bool has_pictures = form == LabelForm::Voc || form == LabelForm::Indexed;
+  if (has_pictures && !infos.empty() && infos.back().id > kLargestGray) {
+    throw IoError(folder, fmt::format("pictures hold ids up to {}, but a label has {}; choose COCO "
+                                      "or labelme",
+                                      kLargestGray, infos.back().id));
+  }
+  const std::string told = has_pictures                 ? tell_colors_apart(infos)
+                           : form == LabelForm::Labelme ? names_told_apart(infos)
+                                                        : "";
   AtomicFolder target(folder);
-  const LabelFolder filled(target.temporary(), infos_of(source));
+  const LabelFolder filled(target.temporary(), std::move(infos));
   if (source.pictures) make_folder(filled.place / picture_folder(form));
   if (form == LabelForm::Voc) {
     make_folder(filled.place / "SegmentationClass");
@@ -163,12 +203,13 @@ void write_label_folder(const fs::path& folder, LabelForm form, const LabelSourc
   }
   if (form == LabelForm::Coco) make_folder(filled.place / "annotations");
   write_views(filled, form, source, progress);
-  if (form == LabelForm::Voc || form == LabelForm::Indexed) {
+  if (has_pictures) {
     write_label_map_text(filled.place / "labelmap.txt", filled.infos);
   }
   progress.check();
   target.commit();
   progress.report(1);
+  return told;
 }
 
 }  // namespace episcope::io

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace episcope::io {
@@ -32,9 +33,11 @@ struct LabelSource {
 };
 
 /// Writes a folder that `read_label_files` reads back exactly. Indexed pictures of ids above 255
-/// are gray ones of 16 bits. Atomic. Throws IoError, also if the folder holds files, and for ids
+/// are gray ones of 16 bits. Where a form knows labels by name or color, those of one name or color
+/// get other ones, black of pictures as well: returns a sentence about them, else nothing. Atomic.
+/// Throws IoError, also if the folder holds files, and for ids
 /// above 65535 in pictures; Cancelled.
-void write_label_folder(const std::filesystem::path& folder, LabelForm form,
-                        const LabelSource& source, const Progress& progress);
+std::string write_label_folder(const std::filesystem::path& folder, LabelForm form,
+                               const LabelSource& source, const Progress& progress);
 
 }  // namespace episcope::io

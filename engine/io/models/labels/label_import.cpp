@@ -13,6 +13,7 @@
 #include "engine/io/models/array_samples.h"
 #include "engine/io/models/labels/color_table.h"
 #include "engine/io/models/labels/label_json.h"
+#include "engine/io/models/labels/label_views.h"
 #include "engine/io/models/mat5.h"
 #include "engine/io/models/names/grid_names.h"
 #include "engine/io/models/numpy_file.h"
@@ -45,83 +46,6 @@ bool is_among(const Names& names, const std::string& name) {
   return std::ranges::find(names, name) != names.end();
 }
 
-/// A label file and the view of its name.
-struct NamedFile {
-  fs::path path;
-  std::optional<ViewIndex> view{};
-};
-
-/// The view whose file has the longest name that this one begins with.
-std::optional<ViewIndex> view_of_own_name(const std::string& stem, const LabelPlaces& places) {
-  std::optional<ViewIndex> found;
-  std::size_t longest = 0;
-  for (std::size_t i = 0; i < places.names.size(); ++i) {
-    const std::string& name = places.names[i];
-    const bool has_end =
-        stem.size() > name.size() && (is_letter(stem[name.size()]) || is_digit(stem[name.size()]));
-    if (name.size() <= longest || !stem.starts_with(name) || has_end) continue;
-    longest = name.size();
-    found = places.shape.grid.view_at(static_cast<int>(i));
-  }
-  return found;
-}
-
-std::optional<ViewIndex> view_of_numbers(const std::string& stem, GridShape grid) {
-  const std::vector<long> numbers = numbered_name(stem).numbers;
-  if (numbers.size() < 2) return std::nullopt;
-  const long v = numbers[numbers.size() - 2];
-  const long u = numbers.back();
-  if (v >= grid.v || u >= grid.u) return std::nullopt;
-  return ViewIndex{static_cast<int>(v), static_cast<int>(u)};
-}
-
-std::optional<ViewIndex> view_of_name(const fs::path& path, const LabelPlaces& places) {
-  const std::string stem = path.stem().string();
-  if (const auto stated = view_of_scribble_picture(path.filename().string())) return stated;
-  if (const auto own = view_of_own_name(stem, places)) return own;
-  return view_of_numbers(stem, places.shape.grid);
-}
-
-/// Files that count all views by the only number that differs, or by two for rows and columns, in
-/// their order, wherever they begin.
-std::optional<std::vector<NamedFile>> counted(const std::vector<fs::path>& paths, GridShape grid) {
-  if (static_cast<int>(paths.size()) != grid.count()) return std::nullopt;
-  std::map<std::vector<long>, fs::path> by_numbers;
-  std::set<std::string> texts;
-  std::vector<std::set<long>> values;
-  for (const fs::path& path : paths) {
-    const NumberedName name = numbered_name(path.stem().string());
-    texts.insert(name.text);
-    values.resize(std::max(values.size(), name.numbers.size()));
-    for (std::size_t i = 0; i < name.numbers.size(); ++i) values[i].insert(name.numbers[i]);
-    by_numbers[name.numbers] = path;
-  }
-  std::vector<int> varying;
-  for (const std::set<long>& each : values) {
-    if (each.size() > 1) varying.push_back(static_cast<int>(each.size()));
-  }
-  const bool is_counted = varying.size() == 1 || varying == std::vector<int>{grid.v, grid.u};
-  if (texts.size() != 1 || !is_counted || by_numbers.size() != paths.size()) return std::nullopt;
-  std::vector<NamedFile> files;
-  for (const auto& [numbers, path] : by_numbers) {
-    files.push_back({path, grid.view_at(static_cast<int>(files.size()))});
-  }
-  return files;
-}
-
-std::vector<NamedFile> placed(const std::vector<fs::path>& paths, const LabelPlaces& places) {
-  std::vector<NamedFile> files;
-  for (const fs::path& path : paths) files.push_back({path, view_of_name(path, places)});
-  if (files.size() == 1) return files;
-  const auto unknown =
-      std::ranges::find_if(files, [](const NamedFile& file) { return !file.view; });
-  if (unknown == files.end()) return files;
-  if (auto all = counted(paths, places.shape.grid)) return *all;
-  throw IoError(unknown->path,
-                "the name tells no view; name files of several views by row and column, as in "
-                "03_04.png, or select as many as there are views, with running numbers");
-}
-
 std::vector<fs::path> sorted_files(const fs::path& folder) {
   std::error_code error;
   std::vector<fs::path> files;
@@ -150,7 +74,8 @@ std::vector<fs::path> files_in(const fs::path& folder) {
     return view_of_scribble_picture(path.filename().string()).has_value();
   };
   if (auto own = those(is_own); !own.empty()) return own;
-  for (const char* suffix : {kJson, ".npy", ".png", ".tif", ".tiff", ".bmp", ".pgm"}) {
+  for (const char* suffix :
+       {kJson, ".npy", ".png", ".tif", ".tiff", ".bmp", ".pgm", ".npz", ".mat", ".h5", ".hdf5"}) {
     auto files = those([&](const fs::path& path) { return suffix_of(path) == suffix; });
     if (!files.empty()) return files;
   }
@@ -267,10 +192,12 @@ std::optional<std::string> axes_of(const ArrayShape& lengths, const FieldShape& 
   return std::nullopt;
 }
 
-/// Axes that a program states, of those longer than 1; t and z count views.
+/// Axes that a program states, of those longer than 1; t and z count views, both of them rows and
+/// columns.
 std::optional<std::string> stated_axes(std::string axes, const ArrayShape& lengths) {
-  std::ranges::replace(axes, 't', 'n');
-  std::ranges::replace(axes, 'z', 'n');
+  const bool has_both = axes.find('t') != std::string::npos && axes.find('z') != std::string::npos;
+  std::ranges::replace(axes, 't', has_both ? 'v' : 'n');
+  std::ranges::replace(axes, 'z', has_both ? 'u' : 'n');
   const bool is_map = axes.find('y') != std::string::npos && axes.find('x') != std::string::npos;
   if (!is_map || axes.size() != lengths.size()) return std::nullopt;
   const bool is_known = axes.find_first_not_of("vunyx") == std::string::npos;
@@ -388,11 +315,33 @@ LabelPicture picture_of(Image<std::int32_t> numbers) {
   return {std::move(numbers), {}, {}, {}};
 }
 
+/// Of the pictures that are views; the others are left out with a note.
+std::vector<NamedFile> views_of_coco(Import& import, const fs::path& path,
+                                     const std::vector<fs::path>& names) {
+  std::vector<NamedFile> views = named_views(names, import.places, import.notes);
+  const auto is_foreign = [](const NamedFile& file) { return !file.view; };
+  if (names.size() == 1 || std::ranges::none_of(views, is_foreign)) return views;
+  if (auto all = counted_views(names, import.places.shape.grid)) return *all;
+  std::vector<std::string> foreign;
+  for (const NamedFile& file : views) {
+    if (!file.view) foreign.push_back(file.path.string());
+  }
+  std::erase_if(views, is_foreign);
+  const std::string list = joined(foreign, ", ", [](const std::string& one) { return one; });
+  if (views.empty()) {
+    throw IoError(path, "holds labels of pictures that are no views of this light field: " + list +
+                            "; name them by row and column, as in 03_04.png");
+  }
+  import.notes.push_back(
+      fmt::format(finding_text("labels.foreign"), path.filename().string(), list));
+  return views;
+}
+
 void add_coco(Import& import, const fs::path& path, CocoLabels coco) {
   std::vector<fs::path> names;
   for (const JsonPicture& picture : coco.pictures) names.emplace_back(picture.file_name);
   if (names.empty()) throw IoError(path, "has no pictures; export it again");
-  const std::vector<NamedFile> views = placed(names, import.places);
+  const std::vector<NamedFile> views = views_of_coco(import, path, names);
   for (std::size_t i = 0; i < views.size(); ++i) {
     const auto place =
         std::ranges::find(coco.pictures, views[i].path.string(), &JsonPicture::file_name);
@@ -406,7 +355,7 @@ void add_coco(Import& import, const fs::path& path, CocoLabels coco) {
 }
 
 void add_json(Import& import, const NamedFile& file) {
-  LabelJson labels = read_label_json(file.path, import.names);
+  LabelJson labels = read_label_json(file.path, import.names, import.places.shape);
   if (auto* const coco = std::get_if<CocoLabels>(&labels)) {
     return add_coco(import, file.path, std::move(*coco));
   }
@@ -417,7 +366,9 @@ void add_json(Import& import, const NamedFile& file) {
                   "annotations); choose another file");
   }
   std::optional<ViewIndex> view = file.view;
-  if (!view) view = view_of_name(picture->file_name, import.places);
+  if (!view && !picture->file_name.empty()) {
+    view = named_views({picture->file_name}, import.places, import.notes).front().view;
+  }
   if (!view) view = import.view_without_name(picture->file_name);
   if (!picture->unseen.empty()) {
     import.notes.push_back(fmt::format(finding_text("labels.shapes"), joined(picture->unseen, ", "),
@@ -467,17 +418,53 @@ void require_distinct_views(std::vector<ViewPicture>& pictures) {
 
 }  // namespace
 
-bool holds_labels_only(const fs::path& path) {
-  const std::string suffix = suffix_of(path);
-  if (is_among(kPictures, suffix) || suffix == kJson) return true;
+namespace {
+
+/// Whether arrays hold labels of views of this shape, by their sizes and names.
+bool fits_as_labels(const ArrayFile& file, const Hdf5Input* tagged, const FieldShape& shape) {
   try {
-    constexpr std::size_t kAxes = 5;  // of a light field in color
-    if (suffix == ".npy") return NpyFile(path).shape().size() < kAxes;
-    if (!has_hdf5_name(path) || !has_hdf5_signature(path)) return false;
-    const Hdf5Input file(path);
-    const auto has = [&](const char* name) { return file.has(name); };
-    constexpr std::array kLabels{"SCRIBBLES", "LABELS", kTrueLabels, "exported_data"};
-    return !file.has("LF") && std::ranges::any_of(kLabels, has);
+    const std::string name = last_name(find_array(file, tagged, shape).entry.name);
+    return map_kind(name).value_or(MapKind::Labels) == MapKind::Labels;
+  } catch (const IoError&) {
+    return false;
+  }
+}
+
+bool holds_label_arrays(const fs::path& path, const FieldShape* shape) {
+  constexpr std::size_t kAxes = 5;  // of a light field in color
+  const std::string suffix = suffix_of(path);
+  if (suffix == ".npy") return NpyFile(path).shape().size() < kAxes;
+  if (suffix == ".npz") return shape && fits_as_labels(NumpyFile(path), nullptr, *shape);
+  if (suffix == ".mat") return shape && fits_as_labels(*open_matlab_file(path), nullptr, *shape);
+  if (!has_hdf5_name(path) || !has_hdf5_signature(path)) return false;
+  const auto file = std::make_shared<const Hdf5Input>(path);
+  if (file->has("LF")) return false;
+  constexpr std::array kLabels{"SCRIBBLES", "LABELS", kTrueLabels, "exported_data"};
+  return std::ranges::any_of(kLabels, [&](const char* name) { return file->has(name); }) ||
+         (shape && fits_as_labels(Hdf5Arrays(file), file.get(), *shape));
+}
+
+/// As labelme, COCO, VOC, CVAT and Episcope write them.
+bool is_label_folder(const fs::path& folder) {
+  std::error_code ignored;
+  for (const char* part : {"SegmentationClass", "annotations", kLabelMap}) {
+    if (fs::exists(folder / part, ignored)) return true;
+  }
+  const std::vector<fs::path> files = files_in(folder);
+  if (view_of_scribble_picture(files.front().filename().string())) return true;
+  if (suffix_of(files.front()) != kJson) return false;
+  LabelNames names({});
+  return !std::holds_alternative<std::monostate>(read_label_json(files.front(), names));
+}
+
+}  // namespace
+
+bool holds_labels_only(const fs::path& path, const FieldShape* shape) {
+  const std::string suffix = suffix_of(path);
+  std::error_code ignored;
+  try {
+    if (fs::is_directory(path, ignored)) return is_label_folder(path);
+    return is_among(kPictures, suffix) || suffix == kJson || holds_label_arrays(path, shape);
   } catch (const IoError&) {
     return false;  // what is wrong with it is said when it is opened
   }
@@ -498,7 +485,7 @@ ImportedLabels read_label_files(const std::vector<fs::path>& paths, const LabelP
   }
   const std::vector<fs::path> files = listed(paths);
   Import import{places, LabelNames(reading.known)};
-  const std::vector<NamedFile> named = placed(files, places);
+  const std::vector<NamedFile> named = placed_views(files, places, import.notes);
   for (std::size_t i = 0; i < named.size(); ++i) {
     const double share = 1.0 / static_cast<double>(named.size());
     add_file(import, named[i],
@@ -621,44 +608,94 @@ ViewStack<std::int32_t> stack_of(const Scribbles& labels, const FieldShape& shap
   return maps;
 }
 
-std::string renumber_labels(Scribbles& labels, std::int32_t most,
-                            const std::vector<LabelInfo>& taken) {
-  std::set<std::int32_t> used;
-  for (const LabelInfo& label : taken) used.insert(std::min(label.id, most));
-  for (const ViewScribbles& one : labels.views) used.insert(one.labels.begin(), one.labels.end());
+namespace {
+
+/// Whether somebody gave a label its name.
+bool is_named(const LabelInfo& label) {
+  return !label.name.empty() && label.name != default_label(label.id).name &&
+         label.name != color_text(label.color);
+}
+
+/// The id that a label has among those that are `taken`, which knows it by its name, else by its
+/// id if it has no name; 0 = another one.
+std::int32_t known_id(const LabelInfo& label, std::int32_t most,
+                      const std::vector<LabelInfo>& taken) {
+  const auto same = std::ranges::find(taken, label.id, &LabelInfo::id);
+  const bool is_free = same == taken.end() || same->name == label.name || !is_named(label);
+  if (is_free && same != taken.end()) return label.id;
+  if (is_named(label)) {
+    const auto named = std::ranges::find(taken, label.name, &LabelInfo::name);
+    if (named != taken.end()) return named->id;
+  }
+  return is_free && label.id <= most ? label.id : 0;
+}
+
+/// Labels of all ids that are painted or named, by id.
+std::vector<LabelInfo> all_labels(const Scribbles& labels) {
+  std::set<std::int32_t> ids;
+  for (const ViewScribbles& one : labels.views) ids.insert(one.labels.begin(), one.labels.end());
+  for (const LabelInfo& one : labels.labels) ids.insert(one.id);
+  std::vector<LabelInfo> all;
+  for (auto id = ids.upper_bound(0); id != ids.end(); ++id) {
+    const auto known = std::ranges::find(labels.labels, *id, &LabelInfo::id);
+    all.push_back(known == labels.labels.end() ? default_label(*id) : *known);
+  }
+  return all;
+}
+
+/// New ids of all labels, by their former ones; each new id once. Names go first.
+std::map<std::int32_t, std::int32_t> new_ids(std::vector<LabelInfo> all, std::int32_t most,
+                                             const std::vector<LabelInfo>& taken) {
+  std::ranges::stable_partition(all, is_named);
   std::map<std::int32_t, std::int32_t> ids;
+  std::set<std::int32_t> used;
+  for (const LabelInfo& label : all) {
+    const std::int32_t id = known_id(label, most, taken);
+    if (id > 0 && used.insert(id).second) ids[label.id] = id;
+  }
+  for (const LabelInfo& label : taken) used.insert(label.id);
   std::int32_t next = 1;
-  for (auto above = used.upper_bound(most); above != used.end(); ++above) {
+  for (const LabelInfo& label : all) {
+    if (ids.contains(label.id)) continue;
     while (used.contains(next)) ++next;
     if (next > most) {
       throw InvalidInput(
-          fmt::format("the labels have {} ids, but only {} can be painted with; join "
-                      "some of them",
-                      used.size(), most));
+          fmt::format("the labels have {} ids, but only {} can be painted with; join some of them",
+                      all.size(), most));
     }
-    ids[*above] = next++;
+    ids[label.id] = next++;
   }
-  if (ids.empty()) return {};
+  return ids;
+}
+
+}  // namespace
+
+std::string renumber_labels(Scribbles& labels, std::int32_t most,
+                            const std::vector<LabelInfo>& taken) {
+  std::vector<LabelInfo> all = all_labels(labels);
+  const std::map<std::int32_t, std::int32_t> ids = new_ids(all, most, taken);
+  std::vector<std::string> changes;
+  for (LabelInfo& label : all) {
+    const std::int32_t id = ids.at(label.id);
+    if (id == label.id) continue;
+    changes.push_back(
+        fmt::format("{}{} is {}", label.id, is_named(label) ? " (" + label.name + ")" : "", id));
+    if (!is_named(label)) label.color = label_color(id);
+    const auto known = std::ranges::find(labels.labels, label.id, &LabelInfo::id);
+    if (known == labels.labels.end()) labels.labels.push_back(label);
+  }
+  if (changes.empty()) return {};
   for (ViewScribbles& one : labels.views) {
     for (std::int32_t& id : one.labels) {
-      if (id > most) id = ids.at(id);
+      if (id > 0) id = ids.at(id);
     }
   }
-  std::erase_if(labels.labels,
-                [&](const LabelInfo& one) { return one.id > most && !ids.contains(one.id); });
-  for (const auto& [former, id] : ids) {
-    const auto known = std::ranges::find(labels.labels, former, &LabelInfo::id);
-    if (known != labels.labels.end()) {
-      known->id = id;
-    } else {
-      labels.labels.push_back({id, "label " + std::to_string(former), label_color(id)});
-    }
+  for (LabelInfo& label : labels.labels) {
+    if (label.id > 0) label.id = ids.at(label.id);
   }
   std::ranges::sort(labels.labels, {}, &LabelInfo::id);
-  return "ids above " + std::to_string(most) +
-         " became smaller ones: " + joined(ids, ", ", [](const auto& one) {
-           return std::to_string(one.first) + " is " + std::to_string(one.second);
-         });
+  return fmt::format(finding_text("labels.renumbered"), most,
+                     joined(changes, ", ", [](const std::string& one) { return one; }));
 }
 
 }  // namespace episcope::io

@@ -5,6 +5,7 @@
 #include "engine/core/scene.h"
 #include "engine/core/view_stack.h"
 #include "engine/io/models/labels/label_pictures.h"
+#include "engine/io/models/labels/label_views.h"
 #include "engine/io/models/stored_maps.h"
 
 #include <cstdint>
@@ -14,20 +15,16 @@
 
 namespace episcope::io {
 
-/// Views that labels may belong to.
-struct LabelPlaces {
-  FieldShape shape;
-  /// Names of the files of the views without suffix, row by row; empty = not known.
-  std::vector<std::string> names{};
-};
-
 /// Of an open light field. Names are known where its views are files of one folder that tell rows
 /// and columns.
 [[nodiscard]] LabelPlaces label_places(const Scene& scene);
 
-/// Whether a file holds labels and no light field, by its name or, of arrays, by what is in it: a
-/// picture, JSON, `.npy` of at most four axes, labels in HDF5.
-[[nodiscard]] bool holds_labels_only(const std::filesystem::path& path);
+/// Whether a file or folder holds labels and no light field, by its name or, of arrays, by what is
+/// in it: a picture, JSON, `.npy` of at most four axes, labels in HDF5; with the `shape` of the
+/// light field, other arrays that are its labels by size and name; a folder of labelme, COCO, VOC,
+/// CVAT or of exported strokes.
+[[nodiscard]] bool holds_labels_only(const std::filesystem::path& path,
+                                     const FieldShape* shape = nullptr);
 
 /// Whether an HDF5 file holds labels in the form of Episcope or the archive, with names and colors.
 /// Throws IoError for a damaged file.
@@ -37,13 +34,14 @@ struct LabelPlaces {
 /// - pictures: PNG, BMP, PGM, TIFF of any integers; pages of a TIFF are the views, row by row;
 /// - arrays: `.npy`, `.npz`, `.mat` of version 5 to 7.3, HDF5, also of ilastik (`axistags`), of one
 ///   view, of all views in a row or in the grid;
-/// - JSON: labelme, and COCO, whose pictures are the views of their names. Ids of labelme's names
-/// are
-///   those of the light field's labels of the same name, else free ones.
+/// - JSON: labelme, and COCO, whose pictures are the views of their names; others are left out with
+///   a note. Ids of labelme's names are those of the light field's labels of the same name, else
+///   free ones.
 ///
 /// A file of one view belongs to the view whose file has its name (`LabelPlaces::names`), else to
-/// the one whose row and column are the last two numbers of its name ("04_05_labels.png"). A file
-/// alone that tells neither is of the center view, with a note if its numbers are of no view;
+/// the one whose row and column are numbers of its name ("04_05_labels.png"): of more than two,
+/// those that vary from file to file, else the last two, with a note where others may be meant. A
+/// file alone that tells neither is of the center view, with a note if its numbers are of no view;
 /// several that tell nothing are all views, by their running number. Of a folder, all files of
 /// labels in it are read: of `scribbles_VV_UU.png` only those, of a VOC folder those in
 /// `SegmentationClass`, of a COCO folder those in `annotations`. Colors of `labelmap.txt` beside
@@ -65,9 +63,11 @@ struct LabelPlaces {
 /// Labels as maps: of all views, 0 in those without labels, or of the only one.
 [[nodiscard]] ViewStack<std::int32_t> stack_of(const Scribbles& labels, const FieldShape& shape);
 
-/// Gives ids above `most` free ids from 1 to `most` that are not `taken`, smallest first, and names
-/// them by their former ids. Returns a sentence about them; empty if there are none. Throws
-/// InvalidInput if there are more labels than ids.
+/// Gives labels that are `taken`, which is what the light field has, the id there of the label of
+/// their name; a label without a name that tells more than its id keeps that. Labels of other names
+/// whose ids are taken, and ids above `most`, get free ids from 1 to `most`, smallest first; those
+/// without a name are named by their former ids. Returns a sentence about changed ids; empty if
+/// there are none. Throws InvalidInput if there are more labels than ids.
 std::string renumber_labels(Scribbles& labels, std::int32_t most,
                             const std::vector<LabelInfo>& taken = {});
 

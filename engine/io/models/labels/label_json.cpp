@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 namespace episcope::io {
@@ -26,21 +27,37 @@ constexpr int kLongestSide = 1 << 16;                        ///< In px.
 constexpr std::int64_t kMostPixels = std::int64_t{1} << 29;  ///< Of all pictures of a file.
 constexpr const char* kOwn = "episcope";
 
+std::string fault_of(const Json::exception& error) {
+  const std::string text = error.what();
+  const std::size_t begin = text.find("key '"), end = text.find('\'', begin + 5);
+  if (begin == std::string::npos || end == std::string::npos) {
+    return "a value is of another kind than it should be";
+  }
+  return text.substr(begin + 4, end - begin - 3) + " is missing";
+}
+
 /// Runs `read`, and says of failures that the file is no file of `form`.
 template <class Read>
 auto reading(const fs::path& path, const char* form, const Read& read) {
   try {
     return read();
   } catch (const Json::exception& error) {
-    throw IoError(path, fmt::format("is no file of {} ({}); export it again", form, error.what()));
+    throw IoError(path,
+                  fmt::format("is no file of {}: {}; export it again", form, fault_of(error)));
   } catch (const InvalidInput& error) {
     throw IoError(path, fmt::format("is no file of {}: {}; export it again", form, error.what()));
   }
 }
 
-/// Without labels.
-Image<std::int32_t> empty_map(const Json& height, const Json& width) {
-  const int rows = int_of(height), columns = int_of(width);
+/// Without labels, of the size that `json` states under these names, else of `shape`.
+Image<std::int32_t> empty_map(const Json& json, const char* height, const char* width,
+                              const FieldShape& shape) {
+  const auto length = [&](const char* name, int usual) {
+    const bool is_stated = json.contains(name) && !json[name].is_null();
+    if (!is_stated && usual == 0) throw InvalidInput(fmt::format("{} is missing", name));
+    return is_stated ? int_of(json[name]) : usual;
+  };
+  const int rows = length(height, shape.height), columns = length(width, shape.width);
   const bool is_sound = rows > 0 && columns > 0 && rows <= kLongestSide &&
                         columns <= kLongestSide &&
                         static_cast<std::int64_t>(rows) * columns <= kMostPixels;
@@ -117,9 +134,11 @@ LabelNames::LabelNames(const std::vector<LabelInfo>& known) {
   }
 }
 
-void LabelNames::state(const LabelInfo& label) {
-  if (label.id < 1 || by_name_.contains(label.name) || names_.contains(label.id)) return;
-  by_name_.emplace(label.name, label);
+void LabelNames::state(const LabelInfo& label, const std::string& name) {
+  const auto known = names_.find(label.id);
+  const bool is_other = known != names_.end() && known->second != label.name;
+  if (label.id < 1 || by_name_.contains(name) || is_other) return;
+  by_name_.emplace(name, label);
   names_.emplace(label.id, label.name);
 }
 
@@ -145,20 +164,27 @@ std::vector<LabelInfo> LabelNames::labels() const {
 
 namespace {
 
-JsonPicture labelme_of(const fs::path& path, const Json& json, LabelNames& names) {
+/// What labelme leaves unlabeled in the labels that it writes for VOC.
+bool is_unlabeled(const std::string& name) {
+  return name == "__ignore__" || name == "_background_";
+}
+
+JsonPicture labelme_of(const fs::path& path, const Json& json, const FieldShape& shape,
+                       LabelNames& names) {
   if (json.contains(kOwn)) {
     for (const Json& label : json.at(kOwn).at("labels")) {
       const std::int32_t id = int_of(label.at("id"));
-      names.state({id, label.at("name").get<std::string>(), color_of(label.at("color"), id)});
+      const auto name = label.at("name").get<std::string>();
+      names.state({id, label.value("label", name), color_of(label.at("color"), id)}, name);
     }
   }
   JsonPicture picture{json.value("imagePath", ""),
-                      empty_map(json.at("imageHeight"), json.at("imageWidth"))};
+                      empty_map(json, "imageHeight", "imageWidth", shape)};
   std::map<std::string, std::int32_t> drawn;
-  for (const Json& shape : json.at("shapes")) {
-    const auto name = shape.at("label").get<std::string>();
-    drawn[name] = names.id_of(name);
-    draw_shape(path, shape, picture.labels, drawn[name]);
+  for (const Json& one : json.at("shapes")) {
+    const auto name = one.at("label").get<std::string>();
+    if (!is_unlabeled(name)) drawn[name] = names.id_of(name);
+    draw_shape(path, one, picture.labels, is_unlabeled(name) ? 0 : drawn[name]);
   }
   for (const auto& [name, id] : drawn) {
     if (std::ranges::find(picture.labels, id) == picture.labels.end()) {
@@ -196,9 +222,22 @@ std::string key_of(const Json& id) {
   return id.is_string() ? id.get<std::string>() : json_text(id);
 }
 
-std::vector<LabelInfo> categories_of(const Json& json, std::vector<std::string>& notes) {
+/// As listed, else those of the annotations.
+Json categories_in(const Json& json) {
+  if (json.contains("categories")) return json["categories"];
+  Json categories = Json::array();
+  for (const Json& annotation : json.at("annotations")) {
+    Json category{{"id", annotation.at("category_id")}};
+    if (std::ranges::find(categories, category) == categories.end()) {
+      categories.push_back(std::move(category));
+    }
+  }
+  return categories;
+}
+
+std::vector<LabelInfo> categories_of(const Json& categories, std::vector<std::string>& notes) {
   std::vector<LabelInfo> labels;
-  for (const Json& category : json.at("categories")) {
+  for (const Json& category : categories) {
     LabelInfo label{int_of(category.at("id")), category.value("name", ""), {}};
     label.color =
         category.contains("color") ? color_of(category["color"], label.id) : label_color(label.id);
@@ -213,21 +252,22 @@ std::vector<LabelInfo> categories_of(const Json& json, std::vector<std::string>&
   return labels;
 }
 
-CocoLabels coco_of(const Json& json) {
+CocoLabels coco_of(const Json& json, const FieldShape& shape) {
   CocoLabels coco;
-  coco.labels = categories_of(json, coco.notes);
+  const Json categories = categories_in(json);
+  coco.labels = categories_of(categories, coco.notes);
   std::map<std::string, std::int32_t> ids;
   for (std::size_t i = 0; i < coco.labels.size(); ++i) {
-    ids[key_of(json.at("categories")[i].at("id"))] = coco.labels[i].id;
+    ids[key_of(categories[i].at("id"))] = coco.labels[i].id;
   }
   std::map<std::string, std::size_t> places;
   std::int64_t pixels = 0;
   for (const Json& image : json.at("images")) {
-    pixels += std::int64_t{int_of(image.at("height"))} * int_of(image.at("width"));
+    Image<std::int32_t> map = empty_map(image, "height", "width", shape);
+    pixels += static_cast<std::int64_t>(map.size());
     if (pixels > kMostPixels) throw InvalidInput("its pictures are too large");
     places[key_of(image.at("id"))] = coco.pictures.size();
-    coco.pictures.push_back(
-        {image.value("file_name", ""), empty_map(image.at("height"), image.at("width"))});
+    coco.pictures.push_back({image.value("file_name", ""), std::move(map)});
   }
   int without = 0;
   for (const Json& annotation : json.at("annotations")) {
@@ -249,15 +289,20 @@ CocoLabels coco_of(const Json& json) {
 
 }  // namespace
 
-LabelJson read_label_json(const fs::path& path, LabelNames& names) {
+LabelJson read_label_json(const fs::path& path, LabelNames& names, const FieldShape& shape) {
   const Json json = reading(path, "labels", [&] { return read_json<Json>(path); });
+  if (json.is_array() && !json.empty() && json[0].is_object() && json[0].contains("image_id")) {
+    throw IoError(path,
+                  "lists results of COCO without their pictures; add them to the file of "
+                  "annotations, which has `images`, as its `annotations`");
+  }
   if (!json.is_object()) return {};
   if (json.contains("shapes")) {
-    return reading(path, "labelme", [&] { return labelme_of(path, json, names); });
+    return reading(path, "labelme", [&] { return labelme_of(path, json, shape, names); });
   }
   const bool is_coco = json.contains("images") && json.contains("annotations");
   if (!is_coco) return {};
-  return reading(path, "COCO", [&] { return coco_of(json); });
+  return reading(path, "COCO", [&] { return coco_of(json, shape); });
 }
 
 namespace {
@@ -285,26 +330,44 @@ Json shape_of(const LabelRegion& region, const std::string& name) {
   return shape;
 }
 
-std::string name_of(std::int32_t id, const std::vector<LabelInfo>& infos) {
-  const auto known = std::ranges::find(infos, id, &LabelInfo::id);
-  return known == infos.end() ? "label " + std::to_string(id) : known->name;
-}
-
 std::string text_of(const Json& json) {
   return json_text(json);
 }
 
 }  // namespace
 
+std::vector<std::string> distinct_names(const std::vector<LabelInfo>& infos) {
+  std::set<std::string> used;
+  for (const LabelInfo& label : infos) used.insert(label.name);
+  std::set<std::string> given;
+  std::vector<std::string> names;
+  for (const LabelInfo& label : infos) {
+    std::string name = label.name;
+    const bool is_free = !is_unlabeled(name) && given.insert(name).second;
+    if (!is_free) {
+      do {
+        name += fmt::format("_{}", label.id);
+      } while (!used.insert(name).second);
+    }
+    names.push_back(std::move(name));
+  }
+  return names;
+}
+
 void write_labelme(const fs::path& path, const std::string& picture,
                    ImageView<const std::int32_t> labels, const std::vector<LabelInfo>& infos) {
+  const std::vector<std::string> distinct = distinct_names(infos);
+  std::map<std::int32_t, std::string> names;
   Json own = Json::array();
-  for (const LabelInfo& label : infos) {
-    own.push_back({{"id", label.id}, {"name", label.name}, {"color", json_of(label.color)}});
+  for (std::size_t i = 0; i < infos.size(); ++i) {
+    const LabelInfo& label = infos[i];
+    names[label.id] = distinct[i];
+    own.push_back({{"id", label.id}, {"name", distinct[i]}, {"color", json_of(label.color)}});
+    if (distinct[i] != label.name) own.back()["label"] = label.name;
   }
   Json shapes = Json::array();
   for (const LabelRegion& region : regions_of(labels)) {
-    shapes.push_back(shape_of(region, name_of(region.label, infos)));
+    shapes.push_back(shape_of(region, names.at(region.label)));
   }
   const Json json{{"version", "5.5.0"},          {"flags", Json::object()},
                   {"shapes", std::move(shapes)}, {"imagePath", picture},

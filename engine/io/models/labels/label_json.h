@@ -3,6 +3,7 @@
 
 #include "engine/core/image.h"
 #include "engine/core/scene.h"
+#include "engine/io/models/stored_maps.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -25,8 +26,8 @@ struct JsonPicture {
 class LabelNames {
  public:
   explicit LabelNames(const std::vector<LabelInfo>& known);
-  /// Takes an id that a file states for a name; ignored if either is in use.
-  void state(const LabelInfo& label);
+  /// Takes the id of a label that a file calls `name`; ignored if either is in use.
+  void state(const LabelInfo& label, const std::string& name);
   [[nodiscard]] std::int32_t id_of(const std::string& name);
   /// Of the names that were asked for or stated.
   [[nodiscard]] std::vector<LabelInfo> labels() const;
@@ -53,11 +54,16 @@ struct CocoLabels {
 ///
 /// Of object detection by COCO: polygons, and runs as numbers or packed. Later annotations cover
 /// earlier ones; ids of categories are raised by one if one of them is 0.
+/// Pictures without a size have that of the views of `shape`, and categories that are not listed
+/// are named after their ids. What labelme calls `__ignore__` or `_background_` is unlabeled.
 using LabelJson = std::variant<std::monostate, JsonPicture, CocoLabels>;
-[[nodiscard]] LabelJson read_label_json(const std::filesystem::path& path, LabelNames& names);
+[[nodiscard]] LabelJson read_label_json(const std::filesystem::path& path, LabelNames& names,
+                                        const FieldShape& shape = {});
 
 /// Writes a file of labelme for one picture, with a polygon for each region, or a mask if it has
-/// holes; ids and colors stand under `episcope`, which labelme keeps. Atomic. Throws IoError.
+/// holes; ids and colors stand under `episcope`, which labelme keeps. Shapes of labels of one name
+/// have the id behind it, `distinct_names`. Atomic. Throws IoError.
+[[nodiscard]] std::vector<std::string> distinct_names(const std::vector<LabelInfo>& infos);
 void write_labelme(const std::filesystem::path& path, const std::string& picture,
                    ImageView<const std::int32_t> labels, const std::vector<LabelInfo>& infos);
 

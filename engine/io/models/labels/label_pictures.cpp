@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <regex>
@@ -104,9 +105,15 @@ template <class Key>
 struct PixelCensus {
   std::map<Key, std::size_t> counts;
   std::size_t transparent = 0;
+  std::size_t ignored = 0;  ///< Pixels that were marked by 0.
 
+  void take_ignored(std::size_t pixels) {
+    ignored = std::min(counts[Key{}], pixels);
+    counts[Key{}] -= ignored;
+    if (counts[Key{}] == 0) counts.erase(Key{});
+  }
   [[nodiscard]] std::size_t all() const {
-    std::size_t sum = transparent;
+    std::size_t sum = transparent + ignored;
     for (const auto& [key, count] : counts) sum += count;
     return sum;
   }
@@ -348,13 +355,14 @@ std::vector<LabelInfo> labels_of(const PixelCensus<std::int32_t>& census,
   for (const auto& [id, count] : census.counts) {
     if (id == 0) continue;
     LabelInfo label = default_label(id);
-    const auto place = static_cast<std::size_t>(id);
+    const std::int32_t stored = id - (labels.zero_is_label ? 1 : 0);
+    const auto place = static_cast<std::size_t>(stored);
     if (place < picture.palette.size()) {
       label.color = picture.palette[place];
       label.name = color_text(label.color);
     }
-    for (const auto* list : {&labels.known, &labels.table}) {
-      const auto known = std::ranges::find(*list, id, &LabelInfo::id);
+    for (const auto& [list, its_id] : {std::pair(&labels.known, id), {&labels.table, stored}}) {
+      const auto known = std::ranges::find(*list, its_id, &LabelInfo::id);
       if (known != list->end()) label.name = known->name;
     }
     const auto stated = std::ranges::find(labels.stated, id, &LabelInfo::id);
@@ -366,13 +374,14 @@ std::vector<LabelInfo> labels_of(const PixelCensus<std::int32_t>& census,
   return found;
 }
 
-/// Pixels that were painted with ids that mean nothing, in words.
+/// Pixels that are unlabeled for another number than 0, and a sentence about those that are not
+/// negative.
 struct Unlabeled {
-  std::string text{};
   std::size_t pixels = 0;
+  std::string sentence{};
 };
 
-/// Marks unlabeled numbers by 0. Returns a sentence about those that are not negative, or nothing.
+/// Marks unlabeled numbers by 0, and raises the others if 0 is a label.
 Unlabeled mark_unlabeled(std::vector<ViewPicture>& pictures, const LabelReading& labels) {
   constexpr std::int32_t kVoid = 255;
   std::map<std::int32_t, std::size_t> counts;
@@ -391,27 +400,58 @@ Unlabeled mark_unlabeled(std::vector<ViewPicture>& pictures, const LabelReading&
   std::vector<std::int32_t> ignored = labels.ignored.value_or(std::vector<std::int32_t>{});
   if (!labels.ignored && is_void) ignored.push_back(kVoid);
   std::erase_if(ignored, [&](std::int32_t id) { return id <= 0 || !counts.contains(id); });
-  if (ignored.empty() && counts.begin()->first >= 0) return {};
+  if (ignored.empty() && counts.begin()->first >= 0 && !labels.zero_is_label) return {};
   const std::set<std::int32_t> none(ignored.begin(), ignored.end());
-  std::size_t pixels = 0;
-  for (const std::int32_t id : none) pixels += counts.at(id);
+  Unlabeled unlabeled;
+  for (const std::int32_t id : none) unlabeled.pixels += counts.at(id);
   for (ViewPicture& one : pictures) {
     for (std::int32_t& id : one.picture.numbers) {
-      if (id < 0 || none.contains(id)) id = 0;
+      id = id < 0 || none.contains(id) ? 0 : id + (labels.zero_is_label ? 1 : 0);
     }
   }
-  if (none.empty()) return {};
-  return {fmt::format("{} ({}) {} unlabeled",
-                      joined(none, ", ", [](int id) { return std::to_string(id); }),
-                      share_text(pixels, all), none.size() == 1 ? "is taken for" : "are taken for"),
-          pixels};
+  if (none.empty()) return unlabeled;
+  unlabeled.sentence = fmt::format(
+      "{} ({}) {} unlabeled", joined(none, ", ", [](int id) { return std::to_string(id); }),
+      share_text(unlabeled.pixels, all), none.size() == 1 ? "is taken for" : "are taken for");
+  return unlabeled;
+}
+
+/// On pixels that are unpainted without being ignored, or on all being painted.
+std::vector<std::string> ground_notes(const PixelCensus<std::int32_t>& census,
+                                      const LabelReading& labels, const fs::path& path,
+                                      const std::string& zero) {
+  const std::size_t all = census.all();
+  const auto zeros = census.counts.find(0);
+  if (zeros != census.counts.end()) {
+    std::vector<std::string> notes;
+    if (labels.ignored && !labels.zero_is_label) {
+      notes.push_back(
+          fmt::format(finding_text("labels.zero"), path.filename().string(),
+                      100.0 * static_cast<double>(zeros->second) / static_cast<double>(all)));
+    }
+    notes.push_back(path.string() + ": " +
+                    ground_text(fmt::format("{} ({})", zero, share_text(zeros->second, all)),
+                                census.transparent, all));
+    return notes;
+  }
+  if (census.ignored > 0 && census.transparent == 0) return {};
+  std::string unpainted = ground_text({}, census.transparent, all);
+  if (census.transparent == 0) {
+    const auto& [id, count] =
+        *std::ranges::max_element(census.counts, {}, [](const auto& one) { return one.second; });
+    unpainted += fmt::format("; ignore {} ({}) if it stands for none", id, share_text(count, all));
+  }
+  return {path.string() + ": " + unpainted};
 }
 
 ImportedLabels strokes_of_numbers(std::vector<ViewPicture>& pictures, const LabelReading& labels,
                                   const fs::path& path) {
   ImportedLabels strokes;
   const Unlabeled unlabeled = mark_unlabeled(pictures, labels);
-  if (unlabeled.pixels > 0) strokes.notes.push_back(path.string() + ": " + unlabeled.text);
+  if (!unlabeled.sentence.empty()) {
+    strokes.notes.push_back(path.string() + ": " + unlabeled.sentence);
+  }
+  if (labels.zero_is_label) strokes.notes.emplace_back(finding_text("labels.raised_files"));
   PixelCensus<std::int32_t> census;
   for (const ViewPicture& one : pictures) {
     Image<std::int32_t> painted(one.picture.height(), one.picture.width());
@@ -422,27 +462,17 @@ ImportedLabels strokes_of_numbers(std::vector<ViewPicture>& pictures, const Labe
     for_pixels(one, false, [&](int, int) { ++census.transparent; });
     strokes.scribbles.views.push_back({one.view, std::move(painted)});
   }
+  census.take_ignored(unlabeled.pixels);
   const LabelPicture& first = pictures.front().picture;
   strokes.scribbles.labels = labels_of(census, first, labels);
   const bool has_palette = !first.palette.empty();
   if (pictures.front().is_own) return strokes;
-  const std::size_t zeros = census.counts.contains(0) ? census.counts[0] - unlabeled.pixels : 0;
-  const std::string ground = zeros == 0 ? ""
-                                        : fmt::format("{}0 ({})", has_palette ? "index " : "",
-                                                      share_text(zeros, census.all()));
   if (has_palette) {
     strokes.notes.push_back(path.string() + ": a label is an index of the palette: " +
                             joined(strokes.scribbles.labels, ", ", label_text));
   }
-  if (ground.empty() && census.transparent == 0 && unlabeled.pixels > 0) return strokes;
-  std::string unpainted = ground_text(ground, census.transparent, census.all());
-  if (ground.empty() && census.transparent == 0) {
-    const auto& [id, count] =
-        *std::ranges::max_element(census.counts, {}, [](const auto& one) { return one.second; });
-    unpainted +=
-        fmt::format("; ignore {} ({}) if it stands for none", id, share_text(count, census.all()));
-  }
-  strokes.notes.push_back(path.string() + ": " + unpainted);
+  std::ranges::move(ground_notes(census, labels, path, has_palette ? "index 0" : "0"),
+                    std::back_inserter(strokes.notes));
   return strokes;
 }
 

@@ -30,6 +30,8 @@ struct LabelReading {
   /// Ids that mean "unlabeled" besides 0 and negative ones. Unset: 255, where other labels are all
   /// smaller.
   std::optional<std::vector<std::int32_t>> ignored{};
+  /// Whether 0 is a label: then ids are raised by one, after `ignored` was applied.
+  bool zero_is_label = false;
   /// Of a file that holds strokes and true labels, take these.
   bool prefers_truth = false;
   /// Names by colors, for pictures with a palette, whose indices remain the ids.

@@ -160,5 +160,6 @@ expect("labels as a result" 1 ERR "l.h5: holds labels and no disparity; .* conve
        ARGS evaluate l.h5 --truth lf.h5)
 expect("ids that are none" 2 ERR "--ignore is 'x'" ARGS convert lf.h5 m.h5 --labels as_labels --ignore x)
 expect("options of labels" 2 ERR "--ignore has no effect without --labels" ARGS convert lf.h5 m.h5 --ignore 255)
+expect("0 as a label" 0 ERR "raised by one" ARGS convert lf.h5 z.h5 --labels as_labels --first-label 0)
 expect("an ignored id" 0 ERR "1 \\(.* % of the pixels\\) is taken for unlabeled"
        ARGS convert lf.h5 i.h5 --labels as_labels --ignore 1)

@@ -222,9 +222,12 @@ void AllViewsTest::allViewsOfAFreshFile_waitForTheDisparity() {
   QVERIFY(!f.segment().isSegmentingAll());
   QVERIFY2(f.panel().state().startsWith("waiting for the disparity"),
            qPrintable(f.panel().state()));
+  QTRY_VERIFY_WITH_TIMEOUT(f.segment().isSegmentingAll(), kScenePatience);
+  QTRY_VERIFY2(f.panel().state().startsWith("labeling"), qPrintable(f.panel().state()));
   QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().jobs.count() == 0 && f.all(), kScenePatience);
   QVERIFY(f.segment().labeler().input()->disparity);
   QVERIFY(f.segment().isSegmentationUpToDate());
+  QVERIFY2(f.panel().state().startsWith("idle"), qPrintable(f.panel().state()));
 }
 
 void AllViewsTest::cancelledDisparity_endsTheWish() {

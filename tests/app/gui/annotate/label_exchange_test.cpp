@@ -15,9 +15,11 @@
 
 #include <QComboBox>
 #include <QDialog>
+#include <QDir>
 #include <QDragEnterEvent>
 #include <QDropEvent>
 #include <QFile>
+#include <QFileDialog>
 #include <QLabel>
 #include <QLineEdit>
 #include <QMimeData>
@@ -83,6 +85,12 @@ class LabelExchangeTest : public QObject {
   void importedLabels_stayWhenTheDisparityComes();
   void trueLabels_areCompared();
   void anotherId_isUnlabeledAtOnce();
+  void anotherId_isUnlabeledBeforeTheImport_data();
+  void anotherId_isUnlabeledBeforeTheImport();
+  void namesThatAreNew_getFreeIds();
+  void tableOfColors_isChosen();
+  void folder_isChosen();
+  void folderDropped_asks();
   void largeIds_areRenumbered();
   void foreignFiles_areRefusedInWords();
   void dropOnAnnotate_asks();
@@ -233,6 +241,117 @@ void LabelExchangeTest::anotherId_isUnlabeledAtOnce() {
   f.accept("strokes");
   QTRY_COMPARE(f.labelAt({40, 40}), 1);
   QCOMPARE(f.labelAt({80, 40}), 0);
+}
+
+// What was typed last was once not yet read when the labels were taken.
+void LabelExchangeTest::anotherId_isUnlabeledBeforeTheImport_data() {
+  QTest::addColumn<bool>("by_return");
+  QTest::newRow("button") << false;
+  QTest::newRow("Return") << true;
+}
+
+void LabelExchangeTest::anotherId_isUnlabeledBeforeTheImport() {
+  QFETCH(bool, by_return);
+  Exchanging f;
+  f.importer().open({f.drawn("ids.png", 7)});
+  QTRY_VERIFY(f.part<QDialog>("importLabels"));
+  auto* field = f.part<QLineEdit>("importLabels.ignored");
+  field->setFocus();
+  QTest::keyClicks(field, "x");
+  f.part<QPushButton>("importLabels.import")->click();
+  QVERIFY(f.part<QDialog>("importLabels")->isVisible());  // that is no id
+  field->clear();
+  QTest::keyClicks(field, "7");
+
+  if (by_return) {
+    QTest::keyClick(field, Qt::Key_Return);
+  } else {
+    f.part<QPushButton>("importLabels.import")->click();
+  }
+
+  QTRY_COMPARE(f.labelAt({40, 40}), 1);
+  QCOMPARE(f.labelAt({80, 40}), 0);
+}
+
+void LabelExchangeTest::namesThatAreNew_getFreeIds() {
+  Exchanging f;
+  const auto write = [&f](const QString& name, const QByteArray& category) {
+    QFile file(f.path(name));
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    file.write(R"({"images": [{"id": 1, "file_name": "04_04.png", "height": 96, "width": 96}],
+      "categories": [{"id": 10, "name": ")" +
+               category + R"("}], "annotations": [
+        {"image_id": 1, "category_id": 10, "segmentation": [[10, 10, 20, 10, 20, 20, 10, 20]]}]})");
+  };
+  write("apples.json", "apple");
+  write("people.json", "person");
+  f.importer().open({f.path("apples.json")});
+  f.accept("strokes");
+  QTRY_COMPARE(f.labelAt({15, 15}), 10);
+
+  f.importer().open({f.path("people.json")});
+  QTRY_VERIFY(f.part<QLabel>("importLabels.content"));
+  QVERIFY(f.part<QLabel>("importLabels.content")->text().contains("1 person"));
+  f.accept("segmentation");
+
+  QTRY_VERIFY(f.segment().segmentation());
+  QCOMPARE(f.segment().segmentation()->labeling->labels.view({4, 4}).at(15, 15), 1);
+  QCOMPARE(f.document().labels().find(1)->name, std::string("person"));
+  QCOMPARE(f.document().labels().find(10)->name, std::string("apple"));
+  QVERIFY2(f.told().contains("10 (person) is 1"), qPrintable(f.told()));
+}
+
+void LabelExchangeTest::tableOfColors_isChosen() {
+  Exchanging f;
+  QFile table(f.path("colors.csv"));
+  QVERIFY(table.open(QIODevice::WriteOnly));
+  table.write("0,80,0,1,tree\n0,0,200,2,sky\n");
+  table.close();
+  f.importer().open({f.drawn("ids.png", 3)});
+  QTRY_VERIFY(f.part<QDialog>("importLabels"));
+
+  f.part<QPushButton>("importLabels.table")->click();
+  auto* files = f.part<QFileDialog>("import_color_table");
+  QVERIFY(files);
+  emit files->fileSelected(f.path("colors.csv"));
+  files->reject();
+
+  QTRY_VERIFY(f.part<QLabel>("importLabels.content")->text().contains("1 tree"));
+  f.accept("strokes");
+  QTRY_COMPARE(f.labelAt({40, 40}), 1);
+  QCOMPARE(f.document().labels().find(1)->name, std::string("tree"));
+}
+
+void LabelExchangeTest::folder_isChosen() {
+  Exchanging f;
+  QVERIFY(QDir(f.path("")).mkdir("masks"));
+  f.drawn("masks/04_04.png", 3);
+
+  f.importer().ask();
+  auto* dialog = f.part<QFileDialog>("import_labels");
+  QVERIFY(dialog);
+  dialog->setDirectory(f.path("masks"));
+  f.part<QPushButton>("import_labels.folder")->click();
+
+  f.accept("strokes");
+  QTRY_COMPARE(f.labelAt({80, 40}), 3);
+}
+
+void LabelExchangeTest::folderDropped_asks() {
+  Exchanging f;
+  f.window.bench().frame.showTab("annotate");
+  QVERIFY(QDir(f.path("")).mkpath("voc/SegmentationClass"));
+  f.drawn("voc/SegmentationClass/04_04.png", 3);
+  QMimeData data;
+  data.setUrls({QUrl::fromLocalFile(f.path("voc"))});
+  QDragEnterEvent enter({50, 50}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+  QDropEvent drop(QPointF(50, 50), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+
+  QCoreApplication::sendEvent(&f.window, &enter);
+  QCoreApplication::sendEvent(&f.window, &drop);
+
+  QTRY_VERIFY(f.part<QDialog>("importLabels"));
+  f.part<QDialog>("importLabels")->close();
 }
 
 void LabelExchangeTest::largeIds_areRenumbered() {

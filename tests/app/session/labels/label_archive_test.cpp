@@ -65,7 +65,7 @@ class LabelArchiveTest : public QObject {
     for (std::size_t i = 0; i < read.views.size(); ++i) {
       QVERIFY(are_same(read.views[i], learned.probabilities.views[i]));
     }
-    const Labeling again = labeler.smooth(std::move(read), parameters, Progress());
+    const Labeling again = labeler.smooth(std::move(read), painted, parameters, Progress());
     QVERIFY(std::equal(again.labels.data(), again.labels.data() + again.labels.size(),
                        learned.labels.data()));
   }
@@ -92,9 +92,8 @@ class LabelArchiveTest : public QObject {
     LabelerParameters parameters = parameters_with(FeatureSet::Image);
     parameters.regularizer = Regularizer::View;
 
-    QVERIFY_THROWS_EXCEPTION(
-        InvalidInput,
-        (void)Labeler(scene.light_field, nullptr).smooth(std::move(one), parameters, Progress()));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, (void)Labeler(scene.light_field, nullptr)
+                                               .smooth(std::move(one), {}, parameters, Progress()));
   }
 
   void strangeSamples_areBounded() {

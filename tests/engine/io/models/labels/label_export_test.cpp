@@ -123,6 +123,45 @@ class LabelExportTest : public QObject {
     }
   }
 
+  // A form that knows labels by name or color alone once took several for one.
+  void labelsOfOneNameAndColor_comeBack_data() {
+    QTest::addColumn<int>("form");
+    for (const auto& form : io::names_of(io::LabelForm{})) {
+      QTest::newRow(form.name) << static_cast<int>(form.value);
+    }
+  }
+  void labelsOfOneNameAndColor_comeBack() {
+    QFETCH(int, form);
+    const auto maps = noise(7);
+    const Rgb red{255, 0, 0};
+    const std::vector<LabelInfo> infos{{1, "dog", red}, {4, "dog", red}, {7, "cat", {}}};
+
+    const std::string told = io::write_label_folder(path("out"), static_cast<io::LabelForm>(form),
+                                                    {maps, infos}, Progress());
+    const io::ImportedLabels read = io::read_label_files({path("out")}, kPlaces);
+
+    const auto back = io::stack_of(read.scribbles, kPlaces.shape);
+    QVERIFY(std::equal(maps.data(), maps.data() + maps.size(), back.data()));
+    for (const LabelInfo& info : infos) {
+      const auto label = std::ranges::find(read.scribbles.labels, info.id, &LabelInfo::id);
+      QVERIFY(label != read.scribbles.labels.end());
+      QCOMPARE(label->name, info.name);
+    }
+    QCOMPARE(told.empty(), form == static_cast<int>(io::LabelForm::Coco));
+  }
+
+  void idsTooLargeForPictures_nameTheFolder() {
+    const auto maps = noise(70000);
+
+    try {
+      (void)io::write_label_folder(path("out"), io::LabelForm::Voc, {maps, kInfos}, Progress());
+      QFAIL("it was written");
+    } catch (const IoError& error) {
+      const QString sentence = error.what();
+      QVERIFY2(sentence.contains("out") && !sentence.contains(".part"), qPrintable(sentence));
+    }
+  }
+
   void labelsWithoutAName_getOne() {
     const auto maps = noise(7);
 
@@ -230,7 +269,6 @@ class LabelExportTest : public QObject {
     QTest::addColumn<QString>("text");
     QTest::newRow("no JSON") << "{";
     QTest::newRow("other JSON") << "[1, 2]";
-    QTest::newRow("no size") << R"({"shapes": []})";
     QTest::newRow("a huge picture") << R"({"shapes": [], "imageHeight": 1e9, "imageWidth": 3})";
     QTest::newRow("an unknown shape") << R"({"shapes": [{"label": "a", "points": [[0, 0]],
       "shape_type": "heart"}], "imageHeight": 14, "imageWidth": 18})";

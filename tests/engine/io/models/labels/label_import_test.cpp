@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/models/labels/label_import.h"
 #include "engine/core/error.h"
+#include "engine/io/base/atomic_file.h"
+#include "engine/io/base/hdf5_output.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/base/npy.h"
 #include "engine/io/models/labels/color_table.h"
 #include "tests/test_main.h"
 
+#include <QRegularExpression>
 #include <QTemporaryDir>
 
 #include <algorithm>
@@ -292,6 +295,170 @@ class LabelImportTest : public QObject {
     QVERIFY(refusal({path("nothing.png")}).contains("no such file"));
     std::ofstream(path("damaged.tif"), std::ios::binary) << std::string("II*\0\x08\0\0\0", 8);
     QVERIFY(refusal({path("damaged.tif")}).contains("damaged"));
+  }
+
+  void namesOfMoreNumbers_tellViewsByThoseThatVary() {
+    std::vector<std::filesystem::path> files;
+    for (const char* name : {"00_01_v1.png", "02_01_v1.png", "02_02_v1.png"}) {
+      files.push_back(colored(name, {1, 1, 1}, {2, 2, 2}));
+    }
+
+    const auto labels = io::read_label_files(files, kPlaces);
+
+    QCOMPARE(labels.scribbles.views[0].view, (ViewIndex{0, 1}));
+    QCOMPARE(labels.scribbles.views[2].view, (ViewIndex{2, 2}));
+    QVERIFY(!told(labels).contains("as well"));
+    const auto alone = io::read_label_files({files[1]}, kPlaces);
+    QCOMPARE(alone.scribbles.views[0].view, (ViewIndex{1, 1}));
+    QVERIFY2(
+        told(alone).contains("02_01_v1.png is taken for view (1,1), but its name may mean view "
+                             "(2,1) as well"),
+        qPrintable(told(alone)));
+  }
+
+  void picturesOfCocoThatAreNoViews_areLeftOut() {
+    const auto write = [&](const std::string& first) {
+      std::string text = R"({"images": [{"id": 1, "file_name": "FIRST"},
+                                        {"id": 2, "file_name": "beach.png"}],
+              "annotations": [{"image_id": 1, "category_id": 3, "segmentation":
+                {"size": [4, 6], "counts": [4, 4, 16]}}]})";
+      text.replace(text.find("FIRST"), 5, first);
+      std::ofstream(path("coco.json")) << text;
+    };
+    write("01_02.png");
+
+    const auto labels = io::read_label_files({path("coco.json")}, kPlaces);
+
+    QCOMPARE(row_of(labels), QString("0 3 0 0 0 0"));
+    QCOMPARE(labels.scribbles.views[0].view, (ViewIndex{1, 2}));
+    QCOMPARE(labels.scribbles.labels[0].name, std::string("label 3"));
+    QVERIFY2(told(labels).contains("left out: beach.png"), qPrintable(told(labels)));
+    write("town.png");
+    const QString sentence = refusal({path("coco.json")});
+    QVERIFY2(sentence.contains("coco.json") && sentence.contains("town.png, beach.png"),
+             qPrintable(sentence));
+  }
+
+  void faultsOfJson_areSentences() {
+    std::ofstream(path("a.json")) << R"([{"image_id": 1, "category_id": 3}])";
+    QVERIFY(refusal({path("a.json")}).contains("results of COCO without their pictures"));
+    std::ofstream(path("a.json")) << R"({"shapes": [{"points": []}], "imagePath": ""})";
+    const QString sentence = refusal({path("a.json")});
+    QVERIFY2(sentence.contains("'label' is missing") && !sentence.contains("json.exception"),
+             qPrintable(sentence));
+  }
+
+  void unlabeledShapesOfLabelme_areNoLabels() {
+    std::ofstream(path("view.json")) << R"({"shapes": [
+      {"label": "all", "points": [[0, 0], [6, 4]], "shape_type": "rectangle"},
+      {"label": "__ignore__", "points": [[1, 0], [2, 4]], "shape_type": "rectangle"},
+      {"label": "_background_", "points": [[3, 0], [4, 4]], "shape_type": "rectangle"}],
+      "imagePath": "", "imageHeight": null, "imageWidth": null})";
+
+    const auto labels = io::read_label_files({path("view.json")}, kPlaces);
+
+    QCOMPARE(row_of(labels), QString("1 0 1 0 1 1"));
+    QCOMPARE(labels.scribbles.labels.size(), std::size_t{1});
+  }
+
+  void timeAndDepthOfIlastik_areRowsAndColumns() {
+    io::AtomicFile target(path("grid.h5"));
+    io::Hdf5Output out(target);
+    out.add_dataset<std::uint8_t>("exported_data", {3, 3, kHeight, kWidth, 1}, "", "");
+    std::vector<std::uint8_t> values(std::size_t{9} * kHeight * kWidth);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      values[i] = static_cast<std::uint8_t>(i / (kHeight * kWidth) + 1);
+    }
+    out.write("exported_data", {{0, 0, 0, 0, 0}, {3, 3, kHeight, kWidth, 1}}, values.data());
+    out.set_text(
+        "exported_data", "axistags",
+        R"({"axes": [{"key": "t"}, {"key": "z"}, {"key": "y"}, {"key": "x"}, {"key": "c"}]})");
+    out.close();
+    target.commit();
+
+    const auto labels = io::read_label_files({path("grid.h5")}, kPlaces);
+
+    QCOMPARE(labels.scribbles.views.size(), std::size_t{9});
+    QCOMPARE(labels.scribbles.views[5].view, (ViewIndex{1, 2}));
+    QCOMPARE(row_of(labels, 5), QString("6 6 6 6 6 6"));
+  }
+
+  void foldersOfArrays_areRead() {
+    std::filesystem::create_directory(path("arrays"));
+    std::filesystem::copy(tool_file("ilastik.h5"), path("arrays/00_02.h5"));
+
+    const auto labels = io::read_label_files({path("arrays")}, kPlaces);
+
+    QCOMPARE(labels.scribbles.views[0].view, (ViewIndex{0, 2}));
+  }
+
+  void zero_isALabelIfAsked() {
+    io::LabelReading reading{.ignored = std::vector<std::int32_t>{255}};
+    const auto usual = io::read_label_files({tool_file("ignore.png")}, kPlaces, reading);
+    QVERIFY2(told(usual).contains("--first-label 0"), qPrintable(told(usual)));
+    reading.zero_is_label = true;
+
+    const auto labels = io::read_label_files({tool_file("ignore.png")}, kPlaces, reading);
+
+    QCOMPARE(row_of(labels), QString("1 2 1 3 0 1"));
+    QVERIFY2(told(labels).contains("raised by one"), qPrintable(told(labels)));
+  }
+
+  void sharesOfUnlabeledPixels_addUpToAll() {
+    const auto labels = io::read_label_files({tool_file("ignore.png")}, kPlaces);
+
+    double sum = 0;
+    static const QRegularExpression share("([0-9.]+) % of the pixels");
+    for (auto each = share.globalMatch(told(labels)); each.hasNext();) {
+      sum += each.next().captured(1).toDouble();
+    }
+    QVERIFY2(sum < 100, qPrintable(told(labels)));
+  }
+
+  void idsOfOtherLabels_becomeFreeOnes() {
+    const std::vector<LabelInfo> taken{{10, "apple", {}}, {11, "dog", {}}};
+    Scribbles labels;
+    labels.labels = {{10, "person", {1, 2, 3}}, {20, "dog", {}}, {30, "tree", {}}};
+    Image<std::int32_t> map(1, 5);
+    std::ranges::copy(std::vector<std::int32_t>{0, 10, 20, 30, 11}, map.begin());
+    labels.views.push_back({{0, 0}, std::move(map)});
+
+    const std::string sentence = io::renumber_labels(labels, 255, taken);
+
+    const Image<std::int32_t>& now = labels.views[0].labels;
+    QCOMPARE(std::vector(now.begin(), now.end()), (std::vector<std::int32_t>{0, 1, 11, 30, 2}));
+    QVERIFY2(sentence.find("10 (person) is 1, 11 is 2, 20 (dog) is 11") != std::string::npos,
+             sentence.c_str());
+    QCOMPARE(labels.labels[0].name, std::string("person"));
+    QCOMPARE(labels.labels[0].color, (Rgb{1, 2, 3}));
+    QVERIFY(io::renumber_labels(labels, 255, {{1, "person", {}}, {11, "dog", {}}}).empty());
+  }
+
+  void quotesInNames_stay() {
+    std::ofstream(path("t.csv")) << "1,2,3,4,19\" rack\"\n4,5,6,7,\"a, b\"\n";
+
+    const auto table = io::read_color_table(path("t.csv"));
+
+    QCOMPARE(table[0].name, std::string("19\" rack\""));
+    QCOMPARE(table[1].name, std::string("a, b"));
+  }
+
+  void foldersAndArraysOfLabels_areKnown() {
+    const auto& shape = kPlaces.shape;
+    std::filesystem::create_directories(path("voc/SegmentationClass"));
+    std::filesystem::create_directory(path("views"));
+    colored("views/00_00.png", {1, 1, 1}, {2, 2, 2});
+    QVERIFY(io::holds_labels_only(path("voc"), &shape));
+    QVERIFY(!io::holds_labels_only(path("views"), &shape));
+    std::ofstream(path("views/labelmap.txt")) << "a:1,1,1::\n";
+    QVERIFY(io::holds_labels_only(path("views"), &shape));
+    io::AtomicFile target(path("own.h5"));
+    io::Hdf5Output out(target);
+    out.add_dataset<std::int32_t>("classes", {kHeight, kWidth}, "", "");
+    out.close();
+    target.commit();
+    QVERIFY(io::holds_labels_only(path("own.h5"), &shape));
+    QVERIFY(!io::holds_labels_only(path("own.h5")));
   }
 
   void largeIds_becomeFreeOnes() {
