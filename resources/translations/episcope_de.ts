@@ -3408,10 +3408,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>*, angeordnet nach %1</translation>
     </message>
     <message>
-        <source>Rows and columns of views seem to be exchanged in these maps: against the ground truth of view %1, the map of that view has MSE×100 %2, that of view %3 %4. Exchange the first two axes of the array.</source>
-        <translation>In diesen Karten scheinen Zeilen und Spalten der Ansichten vertauscht zu sein: Gegen die Referenz der Ansicht %1 hat deren Karte MSE×100 %2, die der Ansicht %3 %4. Vertauschen Sie die ersten beiden Achsen des Arrays.</translation>
-    </message>
-    <message>
         <source>The brightness of the views differs by up to %1 % (view %2: %3). Methods even it out; --equalize evens out the pictures, too, and --no-equalize leaves all as it is.</source>
         <translation>Die Helligkeit der Ansichten unterscheidet sich um bis zu %1 % (Ansicht %2: %3). Verfahren gleichen sie aus; --equalize gleicht auch die Bilder aus, und --no-equalize lässt alles, wie es ist.</translation>
     </message>
@@ -3494,6 +3490,46 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>the map explains little of the ground truth: MSE×100 %1 against %2 of the best constant map; check its scale, units and view</source>
         <translation>die Karte erklärt wenig von der Referenz: MSE×100 %1 gegen %2 der besten konstanten Karte; prüfen Sie Maßstab, Einheit und Ansicht</translation>
+    </message>
+    <message>
+        <source>%1 holds labels of pictures that are no views of this light field; they are left out: %2.</source>
+        <translation>%1 enthält Labels von Bildern, die keine Ansichten dieses Lichtfelds sind; sie bleiben weg: %2.</translation>
+    </message>
+    <message>
+        <source>%1 is taken for view (%2), but its name may mean view (%3) as well; keep only the numbers of row and column in it, as in 03_04.png.</source>
+        <translation>%1 gilt als Ansicht (%2), der Name kann aber auch Ansicht (%3) meinen; nur die Nummern von Zeile und Spalte darin lassen, wie in 03_04.png.</translation>
+    </message>
+    <message>
+        <source>%1 is taken for view (%2).</source>
+        <translation>%1 gilt als Ansicht (%2).</translation>
+    </message>
+    <message>
+        <source>%1: 0 means unlabeled whatever is ignored (%2 % of the pixels); --first-label 0 makes it a label, and raises all ids by one.</source>
+        <translation>%1: 0 heißt immer „ohne Label“ (%2 % der Pixel); --first-label 0 macht 0 zu einem Label und erhöht alle Nummern um eins.</translation>
+    </message>
+    <message>
+        <source>0 means unlabeled.</source>
+        <translation>0 heißt „ohne Label“.</translation>
+    </message>
+    <message>
+        <source>Ids that other labels have, or above %1, became others: %2.</source>
+        <translation>Nummern, die andere Labels haben oder die über %1 liegen, wurden ersetzt: %2.</translation>
+    </message>
+    <message>
+        <source>Labels of one name or color are told apart in these files: %1.</source>
+        <translation>Labels mit gleichem Namen oder gleicher Farbe sind in diesen Dateien unterschieden: %1.</translation>
+    </message>
+    <message>
+        <source>Labels of one name or color were told apart.</source>
+        <translation>Labels mit gleichem Namen oder gleicher Farbe wurden unterschieden.</translation>
+    </message>
+    <message>
+        <source>Labels of other pictures in %1 are left out.</source>
+        <translation>Labels anderer Bilder in %1 bleiben weg.</translation>
+    </message>
+    <message>
+        <source>Some labels have other ids than in the file.</source>
+        <translation>Einige Labels haben andere Nummern als in der Datei.</translation>
     </message>
 </context>
 <context>
@@ -3683,6 +3719,26 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>The labels shown now are replaced. A button in the message that follows brings them back.</source>
         <translation>Die gezeigten Labels werden ersetzt. Ein Knopf in der Meldung, die folgt, holt sie zurück.</translation>
+    </message>
+    <message>
+        <source>Table…</source>
+        <translation>Tabelle …</translation>
+    </message>
+    <message>
+        <source>What the colors of pictures mean: lines r,g,b,id,name, or a labelmap.txt</source>
+        <translation>Was die Farben von Bildern bedeuten: Zeilen r,g,b,id,name oder eine labelmap.txt</translation>
+    </message>
+    <message>
+        <source>Colors</source>
+        <translation>Farben</translation>
+    </message>
+    <message>
+        <source>Table of colors</source>
+        <translation>Farbtabelle</translation>
+    </message>
+    <message>
+        <source>Tables (*.csv *.txt);;All files (*)</source>
+        <translation>Tabellen (*.csv *.txt);;Alle Dateien (*)</translation>
     </message>
 </context>
 <context>
