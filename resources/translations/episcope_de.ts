@@ -6316,8 +6316,8 @@ s</translation>
         <translation>Speichern unter…</translation>
     </message>
     <message>
-        <source>Saves the project, or asks where; scribbles alone go to a file of their own</source>
-        <translation>Speichert das Projekt oder fragt, wohin; Striche allein kommen in eine eigene Datei</translation>
+        <source>Saves the project; without one, new scribbles, or asks where</source>
+        <translation>Speichert das Projekt; ohne Projekt neue Striche, oder fragt, wohin</translation>
     </message>
 </context>
 <context>

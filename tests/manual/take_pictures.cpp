@@ -45,6 +45,7 @@ class Player {
         {"segmented", [this](const QString&) { return awaitLabels(); }},
         {"gantry", [this](const QString&) { return photograph(); }},
         {"save", [this](const QString& what) { return save(what); }},
+        {"hover", [this](const QString& at) { return hover(at); }},
         {"drag", [this](const QString& path) { return mouse(path); }},
         {"picture", [this](const QString& name) { return picture(name); }}};
     const auto found = verbs.find(verb);
@@ -102,6 +103,13 @@ class Player {
     fixture_.press(place(0));
     for (qsizetype i = 2; i < numbers.size(); i += 2) fixture_.move(place(i));
     fixture_.release(place(numbers.size() - 2));
+    return {};
+  }
+
+  QString hover(const QString& at) {
+    const QStringList numbers = at.split(' ', Qt::SkipEmptyParts);
+    if (numbers.size() != 2) return "a place is a pair of numbers";
+    fixture_.move({.y = numbers[1].toInt(), .x = numbers[0].toInt()});
     return {};
   }
 

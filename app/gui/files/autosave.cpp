@@ -311,14 +311,6 @@ void read_strokes(ReadProject& read) {
   }
 }
 
-bool has_unsaved_results(const Workbench& bench, const OpenScene& open) {
-  return !std::ranges::all_of(open.estimates, &EstimateEntry::is_saved) ||
-         open.labels.is_unsaved() || has_work(open.place) ||
-         std::ranges::any_of(bench.scenes.sweeps().all(), [&](const Sweep& sweep) {
-           return !sweep.is_saved && is_of_scene(sweep, open.id);
-         });
-}
-
 namespace {
 
 bool has_unsaved_work(const Workbench& bench, const OpenScene& open) {
@@ -328,7 +320,13 @@ bool has_unsaved_work(const Workbench& bench, const OpenScene& open) {
       return each.scene == open.id && !each.is_expendable;
     });
   };
-  return has_unsaved_results(bench, open) || std::ranges::count(unsaved, open.id) > 0 ||
+  const auto is_unsaved_here = [&](const Sweep& sweep) {
+    return !sweep.is_saved && is_of_scene(sweep, open.id);
+  };
+  return !std::ranges::all_of(open.estimates, &EstimateEntry::is_saved) ||
+         open.labels.is_unsaved() || has_work(open.place) ||
+         std::ranges::count(unsaved, open.id) > 0 ||
+         std::ranges::any_of(bench.scenes.sweeps().all(), is_unsaved_here) ||
          is_running_in(Lane::Estimate) || is_running_in(Lane::Label);
 }
 

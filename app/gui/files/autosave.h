@@ -108,10 +108,6 @@ class SessionRecovery : public QObject {
   LatestJob job_;
 };
 
-/// Whether no file of the user's holds results, labels, sweeps or other work on an open scene;
-/// scribbles aside.
-[[nodiscard]] bool has_unsaved_results(const Workbench& bench, const OpenScene& open);
-
 /// A project as read by a worker.
 struct ReadProject {
   Project project;

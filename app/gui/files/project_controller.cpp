@@ -66,8 +66,7 @@ void ProjectController::addCommands() {
   bench_.commands.add({.menu = Menu::Project, .enabled = has_scene},
                       {{.id = "file.save",
                         .text = tr("Save"),
-                        .tip = tr("Saves the project, or asks where; scribbles alone go to a file "
-                                  "of their own"),
+                        .tip = tr("Saves the project; without one, new scribbles, or asks where"),
                         .icon = "save",
                         .keys = {QKeySequence::Save},
                         .run = [this] { saveWhatIsNew(); }},
@@ -80,14 +79,9 @@ void ProjectController::addCommands() {
                         .run = [this] { saveAs(); }}});
 }
 
-// Until there is a project, scribbles alone go to a file that other programs read.
+// Until there is a project, new scribbles go to a file that other programs read.
 void ProjectController::saveWhatIsNew() {
-  const bool has_results = std::ranges::any_of(
-      bench_.session.scenes(),
-      [this](const OpenScene* each) { return has_unsaved_results(bench_, *each); });
-  const bool has_scribbles_alone =
-      file().isEmpty() && !has_results && bench_.document.hasUnsavedChanges();
-  if (has_scribbles_alone) {
+  if (file().isEmpty() && bench_.document.hasUnsavedChanges()) {
     bench_.commands.trigger("file.save_scribbles");
   } else {
     save();

@@ -64,6 +64,7 @@ QAction* Commands::add(Command command) {
     if (!group) group = new QActionGroup(this);
     group->setExclusionPolicy(QActionGroup::ExclusionPolicy::ExclusiveOptional);
     group->addAction(action);
+    action->setIconVisibleInMenu(false);  // It would stand in the place of the mark.
   }
   if (!command.icon.isEmpty()) action->setIcon(themed_icon(command.icon));
   const bool is_viewer = command.scope == KeyScope::Viewer;

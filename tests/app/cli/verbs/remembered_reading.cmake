@@ -139,7 +139,7 @@ expect_equal("the view of labels with a flip" ${shown} ${flipped})
 expect("estimate with units" 0 ERR "implausible"
        ARGS estimate epi_l a/lf.h5 -o a/units.h5 --units without-width)
 # Truth in the wrong units fits neither results nor views, which is told.
-set(told "but the views fit it as it is: check the truth, or add --map-scale=")
+set(told "but the views fit it as it is: check the ground truth, or add --map-scale=")
 score_of(other_units a/lf.h5 a/plain.h5 --units without-width TOLD "${told}")
 expect_different("the units" ${other_units} ${plain})
 score_of(remembered a/lf.h5 a/units.h5 TOLD "${told}")

@@ -85,6 +85,7 @@ void CommandsTest::exclusiveChoices_haveRadioMarks() {
        {"overlay.none", "overlay.truth", "compare.wipe", "annotate.brush", "theme.dark"}) {
     const QActionGroup* group = commands.find(id)->actionGroup();
     QVERIFY2(group && group->isExclusive(), id);
+    QVERIFY2(!commands.find(id)->isIconVisibleInMenu(), id);  // it would hide the mark
   }
   QVERIFY(commands.find("overlay.truth")->isChecked());
   QVERIFY(!commands.find("overlay.none")->isChecked());
