@@ -130,9 +130,10 @@ ScoredLabels label_scene(const Scene& scene, const Scribbles& scribbles,
                                 scene.truth->labels, *scene.truth, disparity.field.get(),
                                 progress.part(0.95, 1));
   found.notes = stroke_notes(scribbles, scene.truth->labels);
-  if (given)
+  if (given) {
     std::ranges::move(fit_of(*given, scene).sentences(better_reading_finding),
                       std::back_inserter(found.notes));
+  }
   found.notes.push_back(other_numbers_text(found.scores));
   found.notes.push_back(found.segmentation.labeling->note);
   return found;

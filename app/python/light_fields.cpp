@@ -113,11 +113,18 @@ py::array in_order(const py::object& object) {
   return numpy.attr("ascontiguousarray")(array, array.attr("dtype").attr("newbyteorder")("="));
 }
 
+/// Gray views of a square grid [v, u, y, x], whatever else their shape may mean.
+bool are_gray_views(const py::array& array) {
+  return array.ndim() == 4 && array.shape(0) == array.shape(1) &&
+         array.shape(1) < std::min(array.shape(2), array.shape(3));
+}
+
 OpenedScene scene_of_array(const py::object& object, const std::string& name,
                            const py::kwargs& reading) {
   const py::array array = in_order(object);
   const auto schema = io::open_schema();
-  const io::OpenOptions options = schema.parse(parameters_from(reading, schema.descriptions()));
+  io::OpenOptions options = schema.parse(parameters_from(reading, schema.descriptions()));
+  if (options.axes.empty() && are_gray_views(array)) options.axes = "vuyx";
   const FileInMemory file(name, array);
   Scene scene = result_of_job(
       py::none(), 0, [&](const Progress& job) { return io::read_arrays(file, options, job); });

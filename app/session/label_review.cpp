@@ -108,12 +108,12 @@ std::vector<std::string> stroke_notes(const Scribbles& scribbles,
   }
   if (const auto unknown = missing_ids(painted, known); !unknown.empty()) {
     notes.push_back("GT_LABELS do not have " + labels_text(unknown) + ", but " +
-                    labels_text(known).substr(labels_text(known).find(' ') + 1) +
+                    joined(known, ", ", [](int id) { return std::to_string(id); }) +
                     "; pixels of the former count as wrong");
   }
   if (const auto unpainted = missing_ids(known, painted); !unpainted.empty()) {
     notes.push_back("nobody painted " + labels_text(unpainted) +
-                    " of GT_LABELS; pixels of it count as wrong");
+                    " of GT_LABELS, whose pixels count as wrong");
   }
   const double share = agreement(scribbles, [&truth](ViewIndex view) {
     return truth.contains(view) ? truth.view(view) : ImageView<const std::int32_t>{};

@@ -37,8 +37,9 @@ void check_fits(const Estimate& estimate, const LightField& light_field, const s
   const MapGeometry maps = geometry_of(estimate.field.disparity);
   std::string reason =
       reason_against_fit("the map", maps, light_field.info().name, geometry_of(light_field));
-  if (reason.empty() && !light_field.grid().contains(maps.first)) {
-    reason = fmt::format("the map is of view {}, but {} has {}×{} views", view_text(maps.first),
+  const ViewIndex last{maps.first.v + maps.grid.v - 1, maps.first.u + maps.grid.u - 1};
+  if (reason.empty() && !light_field.grid().contains(last)) {
+    reason = fmt::format("the map is of view {}, but {} has {}×{} views", view_text(last),
                          light_field.info().name, light_field.grid().v, light_field.grid().u);
   }
   if (reason.empty()) return;
@@ -86,9 +87,7 @@ std::string options_missing_in(const Reading& other, const Reading& reading) {
 
 namespace {
 
-/// Empty if it was not.
 std::string other_samples_text(const Estimate& estimate, const LightField& light_field) {
-  if (!is_of_other_samples(estimate, light_field)) return {};
   const Reading& own = estimate.reading;
   const Reading& other = light_field.info().reading;
   std::string text =
@@ -187,27 +186,41 @@ nlohmann::ordered_json better_reading_json(const io::BetterReading& found) {
 
 namespace {
 
-/// Where both hold values.
-struct Errors {
-  std::vector<double> differences;  ///< Map − truth.
-
-  Errors(const DisparityView& map, const DisparityView& truth) {
-    for (int y = 0; y < truth.disparity.height; ++y) {
-      for (int x = 0; x < truth.disparity.width; ++x) {
-        if (!truth.is_valid(y, x) || !map.is_valid(y, x)) continue;
-        differences.push_back(map.disparity.at(y, x) - truth.disparity.at(y, x));
-      }
+/// Map − truth where both hold values.
+std::vector<double> differences_of(const DisparityView& map, const DisparityView& truth) {
+  std::vector<double> differences;
+  for (int y = 0; y < truth.disparity.height; ++y) {
+    for (int x = 0; x < truth.disparity.width; ++x) {
+      if (!truth.is_valid(y, x) || !map.is_valid(y, x)) continue;
+      differences.push_back(map.disparity.at(y, x) - truth.disparity.at(y, x));
     }
   }
+  return differences;
+}
 
-  /// Once `offset` is taken from the map.
-  [[nodiscard]] io::Misfit squares(double offset = 0) const {
-    io::Misfit sum;
-    for (const double each : differences) sum += {(each - offset) * (each - offset), 1};
-    return sum;
+io::Misfit squares_of(const std::vector<double>& differences, double offset = 0) {
+  io::Misfit sum;
+  for (const double each : differences) sum += {(each - offset) * (each - offset), 1};
+  return sum;
+}
+
+/// NaN without a pixel that both know.
+double mse_100(const DisparityView& map, const DisparityView& truth) {
+  const io::Misfit sum = squares_of(differences_of(map, truth));
+  return 100 * sum.sum / sum.count;
+}
+
+bool all_views_are_known(const DisparityField& field) {
+  for (int i = 0; i < field.disparity.grid().count(); ++i) {
+    const DisparityView view = field.view(field.disparity.view_at(i));
+    bool is_known = false;
+    for (int y = 0; y < view.disparity.height && !is_known; ++y) {
+      for (int x = 0; x < view.disparity.width; ++x) is_known |= view.is_valid(y, x);
+    }
+    if (!is_known) return false;
   }
-  [[nodiscard]] double mse_100(double offset = 0) const { return 100 * squares(offset).mean(); }
-};
+  return true;
+}
 
 /// Of the error as read, below which another view or another constant explains a map far better.
 constexpr double kFarBetter = 0.25;
@@ -217,11 +230,12 @@ constexpr double kSmallOffset_px = 0.1;
 std::string other_order_text(const DisparityField& maps, const Scene& scene) {
   const DisparityField& truth = scene.truth->field;
   const GridShape grid = scene.light_field->grid();
-  if (grid.count() == 1 || !(maps.disparity.grid() == grid && truth.disparity.grid() == grid)) {
+  if (grid.count() == 1 || !(maps.disparity.grid() == grid && truth.disparity.grid() == grid) ||
+      !all_views_are_known(maps) || !all_views_are_known(truth)) {
     return {};
   }
   const auto found = io::find_better_order(grid, 0, [&](ViewIndex view, ViewIndex place) {
-    return Errors(maps.view(place), truth.view(view)).squares();
+    return squares_of(differences_of(maps.view(place), truth.view(view)));
   });
   if (!found) return {};
   return fmt::format(finding_text("map.views_exchanged"), found->order.text(), 100 * found->misfit,
@@ -231,31 +245,35 @@ std::string other_order_text(const DisparityField& maps, const Scene& scene) {
 /// Whether a single map is of another view.
 std::string other_view_text(const DisparityView& map, ViewIndex view, const Scene& scene) {
   const DisparityField& truth = scene.truth->field;
-  const double as_read = Errors(map, truth.view(view)).mse_100();
+  const double as_read = mse_100(map, truth.view(view));
   double least = kFarBetter * as_read;
   std::optional<ViewIndex> best;
   for (int i = 0; i < truth.disparity.grid().count(); ++i) {
     const ViewIndex other = truth.disparity.view_at(i);
-    const double mse = Errors(map, truth.view(other)).mse_100();
-    if (!(mse < least)) continue;
+    const double mse = mse_100(map, truth.view(other));
+    if (!(mse < least)) continue;  // also where they share no pixel
     least = mse;
     best = other;
   }
   if (!best) return {};
   return fmt::format(
       "the map fits the ground truth of view {} far better than that of view {}: MSE×100 {:.3g} "
-      "instead "
-      "of {:.3g}; name the view that it is of",
+      "instead of {:.3g}; name the view that it is of",
       view_text(*best), view_text(view), least, as_read);
 }
 
+/// Not if the map would explain little without the offset, either.
 std::string offset_text(const DisparityView& map, const DisparityView& truth) {
-  const Errors errors(map, truth);
-  if (errors.differences.empty()) return {};
-  std::vector<double> sorted = errors.differences;
+  const std::vector<double> differences = differences_of(map, truth);
+  if (differences.empty()) return {};
+  std::vector<double> sorted = differences;
   const double offset = quantile(sorted, 0.5);
-  const double as_read = errors.mse_100(), without = errors.mse_100(offset);
-  if (std::abs(offset) < kSmallOffset_px || !(without < kFarBetter * as_read)) return {};
+  const double as_read = 100 * squares_of(differences).mean();
+  const double without = 100 * squares_of(differences, offset).mean();
+  const auto poor = io::find_poor_fit(map, truth);
+  const bool is_enough = !poor || without < kFarBetter * poor->constant_mse_100;
+  if (std::abs(offset) < kSmallOffset_px || !(without < kFarBetter * as_read && is_enough))
+    return {};
   return fmt::format(
       "the map is off by {:+.3g} px everywhere: without that, MSE×100 would be {:.3g} instead of "
       "{:.3g}; check which focus plane it belongs to (--focus)",
@@ -270,10 +288,10 @@ std::string poor_fit_text(const DisparityView& map, const DisparityView& truth) 
 
 }  // namespace
 
-std::string doubt_text(const Estimate& estimate, const Scene& scene) {
+std::string doubt_text(const Estimate& estimate, const Scene& scene, bool is_of_others) {
   const auto view = compared_view(estimate, scene);
   if (!view || !scene.truth->field.contains(*view)) return {};
-  if (estimate.source_hash != 0 && !is_of_other_samples(estimate, *scene.light_field)) return {};
+  if (estimate.source_hash != 0 && !is_of_others) return {};
   const bool is_foreign = estimate.version.empty();
   std::string text = is_foreign ? other_order_text(estimate.field, scene) : std::string();
   const DisparityView map = estimate.field.view(*view);
@@ -288,7 +306,7 @@ std::string doubt_text(const Estimate& estimate, const Scene& scene) {
 bool is_ground_truth(const Estimate& estimate, const Scene& scene) {
   const auto view = compared_view(estimate, scene);
   return estimate.version.empty() && view && scene.truth->field.contains(*view) &&
-         Errors(estimate.field.view(*view), scene.truth->field.view(*view)).mse_100() == 0;
+         mse_100(estimate.field.view(*view), scene.truth->field.view(*view)) == 0;
 }
 
 std::vector<std::string> ResultFit::sentences(
@@ -301,9 +319,10 @@ std::vector<std::string> ResultFit::sentences(
 ResultFit fit_of(const Estimate& estimate, const Scene& scene) {
   ResultFit fit;
   if (estimate.version.empty()) fit.notes = estimate.notes;
-  fit.notes.push_back(other_samples_text(estimate, *scene.light_field));
+  const bool is_of_others = is_of_other_samples(estimate, *scene.light_field);
+  if (is_of_others) fit.notes.push_back(other_samples_text(estimate, *scene.light_field));
   fit.better = find_better_reading(estimate, scene);
-  if (!fit.better) fit.notes.push_back(doubt_text(estimate, scene));
+  if (!fit.better) fit.notes.push_back(doubt_text(estimate, scene, is_of_others));
   std::erase(fit.notes, std::string());
   return fit;
 }

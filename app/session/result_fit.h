@@ -21,8 +21,8 @@ void check_fits(const Estimate& estimate, const LightField& light_field, const s
 void check_fits(const ViewStack<std::int32_t>& labels, const LightField& light_field,
                 const std::string& file);
 
-/// "It has maps of 5×5 views, the other one of 7×7": why two maps cannot be compared, as a sentence
-/// that begins with `who` and has no full stop; empty if both have one size and grid, or one of
+/// "the map has 5×5 views, but cotton has 9×9": why two maps cannot be compared, as a sentence that
+/// begins with `who` and has no full stop; empty if both have one size and grid, or one of
 /// them a single view. An empty one fits all.
 [[nodiscard]] std::string reason_against_fit(const std::string& who, const MapGeometry& maps,
                                              const std::string& other_name,
@@ -68,8 +68,9 @@ void check_fits(const ViewStack<std::int32_t>& labels, const LightField& light_f
 /// What speaks against a result that no other reading explains better, with both numbers: that its
 /// maps fit the truth of other views, or but for a constant, far better, or explain little of it
 /// (io::find_poor_fit); else empty. Results that were estimated from the samples of the light field
-/// are not doubted.
-[[nodiscard]] std::string doubt_text(const Estimate& estimate, const Scene& scene);
+/// are not doubted. `is_of_others`: is_of_other_samples.
+[[nodiscard]] std::string doubt_text(const Estimate& estimate, const Scene& scene,
+                                     bool is_of_others);
 
 /// What a user must know of a result in the place of a light field.
 struct ResultFit {

@@ -495,11 +495,11 @@ void print_status(const PlannedBenchmark& planned, const BenchmarkRequest& reque
   for (const std::string& failure : status.failures) std::cout << "failed: " << failure << '\n';
 }
 
-/// Throws if maps were to be judged and none was.
+/// Throws if maps were to be judged, and neither they nor methods were.
 void require_judged_maps(const BenchmarkReport& report) {
   std::string problem;
   for (const BenchmarkResult& result : report.results) {
-    if (result.is_foreign && result.problem.empty()) return;
+    if (result.problem.empty()) return;
     if (result.is_foreign) problem = result.entry + " on " + result.scene + ": " + result.problem;
   }
   if (!problem.empty()) throw Error("none of the maps could be judged; " + problem);

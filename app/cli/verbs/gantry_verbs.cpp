@@ -116,6 +116,14 @@ void check_outputs(const RectifyRequest& request) {
   if (request.pairs.empty()) return;
   check_output_file(request.pairs);
   protect_input(request.pairs, request.picks);
+  if (request.overwrite == Overwrite::Yes || !std::filesystem::exists(request.pairs)) return;
+  try {
+    (void)capture::read_pairs(request.pairs);
+  } catch (const Error&) {  // Else it would be refused once the light field is written.
+    throw IoError(
+        request.pairs,
+        std::string("exists and holds something else; choose another name, or ") + kByOption);
+  }
 }
 
 }  // namespace

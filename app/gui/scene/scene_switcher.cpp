@@ -217,7 +217,7 @@ ReadEstimate read_estimate(const Scene& scene, const std::string& path,
   std::string options = differing_options(*estimate, light_field);
   std::optional<io::BetterReading> better;
   if (reading == io::MapReading()) better = find_better_reading(*estimate, scene);
-  std::string poor_fit = better ? std::string() : doubt_text(*estimate, scene);
+  std::string poor_fit = better ? std::string() : doubt_text(*estimate, scene, is_of_others);
   return {
       {std::move(estimate), range}, is_truth, is_of_others && !is_moved, std::move(options), better,
       std::move(poor_fit),          stamp};

@@ -69,6 +69,7 @@ def test_array_of_another_order_is_named_by_its_axes(scene):
 
 def test_gray_array_has_one_channel(scene):
     assert episcope.LightField(scene.views[..., 1]).views.shape == (5, 5, 64, 64, 1)
+    assert episcope.LightField(scene.views[:3, :3, ..., 1]).views.shape == (3, 3, 64, 64, 1)
 
 
 def test_list_of_colored_views_is_read_as_its_file(scene, tmp_path):

@@ -56,6 +56,9 @@ expect("pose over other pairs" 1 ERR "pairs.csv: .*" ARGS pose raw.h5 --mesh rig
 expect("rectify over other pairs" 1 ERR "pose.json: exists and holds something else"
        ARGS rectify rig/photographs --camera camera.yml --step 12 --picks rig/picks.csv
        --pairs pose.json -o raw2.h5 --quiet)
+if(EXISTS "${WORK}/raw2.h5")
+  fail_case("rectify over other pairs: the light field was written")
+endif()
 file(STRINGS "${WORK}/pairs.csv" lines)
 list(POP_FRONT lines head)
 set(wrong "${head}\n")

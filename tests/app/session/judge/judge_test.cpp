@@ -152,31 +152,56 @@ class JudgeTest : public QObject {
       std::copy_n(from.data, from.size(), stored.field.disparity.view(view).data);
     }
 
-    const QString text = QString::fromStdString(doubt_text(stored, *scene));
+    const QString text = QString::fromStdString(doubt_text(stored, *scene, false));
     QVERIFY2(text.contains(words), qPrintable(text));
-    QCOMPARE(doubt_text(*right, *scene), std::string());
+    QCOMPARE(doubt_text(*right, *scene, false), std::string());
     stored.version = "1";  // ours are in order
-    QVERIFY(!QString::fromStdString(doubt_text(stored, *scene)).contains("another order"));
+    QVERIFY(!QString::fromStdString(doubt_text(stored, *scene, false)).contains("another order"));
+  }
+
+  // Views without values are no evidence of an order, a map without any is no ground truth.
+  void viewsWithoutValues_areNoEvidence() {
+    const auto scene = tiny_scene("objects");
+    const EstimatePtr noisy = shifted_truth(*scene, 0.02F);
+    Estimate partly;
+    partly.field.disparity = noisy->field.disparity.clone();
+    partly.field.valid = ViewStack<std::uint8_t>({3, 3}, 64, 64);
+    for (const ViewIndex view : {ViewIndex{0, 2}, {1, 1}, {2, 0}}) {
+      const auto valid = partly.field.valid.view(view);
+      std::fill_n(valid.data, valid.size(), std::uint8_t{1});
+    }
+    QCOMPARE(doubt_text(partly, *scene, false), std::string());
+    std::fill_n(partly.field.valid.data(), partly.field.valid.size(), std::uint8_t{0});
+    QVERIFY(!is_ground_truth(partly, *scene));
+  }
+
+  void constantMap_explainsLittle() {
+    const auto scene = tiny_scene("objects");
+    Estimate flat = center_map(scene->truth->field.view({1, 1}), 0);
+    std::fill_n(flat.field.disparity.data(), flat.field.disparity.size(), 9.0F);
+    const QString text = QString::fromStdString(doubt_text(flat, *scene, false));
+    QVERIFY2(text.startsWith("the map explains little of the ground truth"), qPrintable(text));
   }
 
   void mapOfAnotherView_isTold() {
     const auto scene = tiny_scene("objects");
     const Estimate estimate = center_map(scene->truth->field.view({0, 0}), 0);
 
-    const QString text = QString::fromStdString(doubt_text(estimate, *scene));
+    const QString text = QString::fromStdString(doubt_text(estimate, *scene, false));
 
     QVERIFY2(text.startsWith(
                  "the map fits the ground truth of view 0,0 far better than that of view 1,1: "
                  "MSE×100 0 instead of "),
              qPrintable(text));
-    QCOMPARE(doubt_text(center_map(scene->truth->field.view({1, 1}), 0), *scene), std::string());
+    QCOMPARE(doubt_text(center_map(scene->truth->field.view({1, 1}), 0), *scene, false),
+             std::string());
   }
 
   void constantOffset_isTold() {
     const auto scene = tiny_scene("objects");
 
     const QString text = QString::fromStdString(
-        doubt_text(center_map(scene->truth->field.view({1, 1}), 0.5F), *scene));
+        doubt_text(center_map(scene->truth->field.view({1, 1}), 0.5F), *scene, false));
 
     QVERIFY2(
         text.startsWith("the map is off by +0.5 px everywhere: without that, MSE×100 would be"),
