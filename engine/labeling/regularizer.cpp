@@ -96,7 +96,7 @@ void JointProblem::state(const RayLabelingInput& input, const RayLabelingParamet
   problem.table = cost_table(parameters.floor);
   problem.smoothness = parameters.smoothness;
   problem.coherence = parameters.coherence;
-  if (input.strokes != nullptr) {
+  if (input.strokes != nullptr && !input.strokes->views.empty()) {
     problem.table[0] = price_of_held(parameters.smoothness + parameters.coherence);
     for (int i = 0; i < p.grid.count(); ++i) held.push_back(with_held(input, p.view_at(i)));
   }

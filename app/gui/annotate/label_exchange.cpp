@@ -109,7 +109,8 @@ class ImportLabelsDialog : public QDialog {
   void showLabels(const LightField& field, ViewIndex view,
                   std::shared_ptr<const io::ImportedLabels> labels);
   /// The labels that a signal asked for are shown, or cannot be read.
-  void readEnded();
+  /// Returns whether what was asked for last is shown, or still being read.
+  bool readEnded();
   /// Waits for labels that were asked for.
   void accept() override;
   [[nodiscard]] const std::shared_ptr<const io::ImportedLabels>& labels() const { return labels_; }
@@ -204,11 +205,12 @@ void ImportLabelsDialog::askForTable() {
                });
 }
 
-void ImportLabelsDialog::readEnded() {
-  if (reading_ == 0 || --reading_ > 0) return;
-  if (is_stale_) ignored_->setModified(true);  // what is shown is not what was asked for
+bool ImportLabelsDialog::readEnded() {
+  if (reading_ == 0 || --reading_ > 0) return true;
+  if (is_stale_) ignored_->setModified(true);
   const bool goes_on = std::exchange(is_accepted_, false) && !is_stale_;
   if (goes_on) QDialog::accept();
+  return !is_stale_;
 }
 
 void ImportLabelsDialog::accept() {
@@ -226,7 +228,7 @@ void ImportLabelsDialog::addUse(LabelUse use, const QString& name, const QString
 void ImportLabelsDialog::showLabels(const LightField& field, ViewIndex view,
                                     std::shared_ptr<const io::ImportedLabels> labels) {
   labels_ = std::move(labels);
-  is_stale_ = false;
+  is_stale_ = reading_ > 1;  // else this is what was asked for last
   const Scribbles& scribbles = labels_->scribbles;
   const ViewScribbles& shown = nearest_view(scribbles, view);
   const QImage picture = preview_of(field, shown, scribbles.labels);
@@ -246,7 +248,7 @@ void ImportLabelsDialog::showLabels(const LightField& field, ViewIndex view,
       tr("%n view(s) with labels. View %1: %2", nullptr, static_cast<int>(scribbles.views.size()))
           .arg(QString::fromStdString(view_text(shown.view)), listed(texts)));
   QStringList notes;
-  for (const std::string& note : labels_->notes) notes << QString::fromStdString(note);
+  for (const std::string& note : labels_->notes) notes << finding_words(note);
   notes_->setText(notes.join('\n'));
   notes_->setVisible(!notes.isEmpty());
 }
@@ -311,11 +313,13 @@ void LabelImporter::read() {
                           std::back_inserter(labels->notes));
         return labels;
       },
-      [this, paths, generation = session_.generation()](const Read& labels) {
-        if (generation == session_.generation()) show(paths, labels);
+      [this, asked = asked_, generation = session_.generation()](const Read& labels) {
+        if (generation != session_.generation()) return;
+        shown_ = asked;
+        show(asked.paths, labels);
       },
-      [dialog = dialog_] {
-        if (dialog) dialog->readEnded();
+      [this, dialog = dialog_] {
+        if (dialog && !dialog->readEnded()) asked_ = shown_;  // it failed: not again
       });
 }
 
@@ -567,10 +571,10 @@ void export_labels(const Workbench& bench, const SegmentController& segment, con
   }
   write_labels_in_background(
       bench, segment, path, write,
-      [bench, told, is_whole = target.kind != Kind::Picture, scene = bench.session.generation(),
-       labeling = bench.session.labels().labeling] {
+      [bench, told, path, is_whole = target.kind != Kind::Picture,
+       scene = bench.session.generation(), labeling = bench.session.labels().labeling] {
         if (is_whole) bench.session.mark_labels_saved(scene, labeling);
-        if (!told->empty()) bench.messages.hint(QString::fromStdString(*told));
+        if (!told->empty()) bench.messages.hint(QString("%1: %2").arg(path, finding_words(*told)));
       });
 }
 

@@ -68,7 +68,7 @@ class LabelImporter : public QObject {
   Session& session_;
   DocumentController& document_;
   QPointer<ImportLabelsDialog> dialog_;
-  Asked asked_;
+  Asked asked_, shown_;
 };
 
 /// Form in which labels are exported.

@@ -151,7 +151,8 @@ void StatisticsController::count(const PixelRect& region) {
 
 void StatisticsController::show(const Counted& counted) {
   statistics_ = counted.statistics;
-  if (choice_.quantity == Quantity::WrongLabels) {
+  if (choice_.quantity == Quantity::WrongLabels && statistics_->count > 0) {
+    wants_range_ = false;
     // The mean of good and bad ones.
     const double share = (statistics_->mean - kGoodPixel) / (kBadPixel - kGoodPixel);
     return panel_->clear(

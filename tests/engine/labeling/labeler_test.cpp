@@ -222,7 +222,6 @@ void LabelerTest::correctedPixels_keepTheirLabels() {
   Labeler labeler = new_labeler();
   const Scribbles scribbles = with_island();
   const Labeling before = labeler.label(scene().scribbles, how, kAll, Progress());
-  const Labeling anew = labeler.label(scribbles, how, kAll, Progress());
 
   const auto corrected =
       labeler.correct(scribbles, how, {before, scene().scribbles, {1, 1}}, Progress());

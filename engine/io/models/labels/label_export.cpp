@@ -204,7 +204,7 @@ std::string write_label_folder(const fs::path& folder, LabelForm form, const Lab
   if (form == LabelForm::Coco) make_folder(filled.place / "annotations");
   write_views(filled, form, source, progress);
   if (has_pictures) {
-    write_label_map_text(filled.place / "labelmap.txt", filled.infos);
+    write_label_map_text(filled.place / kLabelMap, filled.infos);
   }
   progress.check();
   target.commit();

@@ -416,10 +416,6 @@ void require_distinct_views(std::vector<ViewPicture>& pictures) {
                                  "); choose one of them");
 }
 
-}  // namespace
-
-namespace {
-
 /// Whether arrays hold labels of views of this shape, by their sizes and names.
 bool fits_as_labels(const ArrayFile& file, const Hdf5Input* tagged, const FieldShape& shape) {
   try {
@@ -445,7 +441,7 @@ bool holds_label_arrays(const fs::path& path, const FieldShape* shape) {
 }
 
 /// As labelme, COCO, VOC, CVAT and Episcope write them.
-bool is_label_folder(const fs::path& folder) {
+bool is_label_folder(const fs::path& folder, const FieldShape& shape) {
   std::error_code ignored;
   for (const char* part : {"SegmentationClass", "annotations", kLabelMap}) {
     if (fs::exists(folder / part, ignored)) return true;
@@ -454,7 +450,7 @@ bool is_label_folder(const fs::path& folder) {
   if (view_of_scribble_picture(files.front().filename().string())) return true;
   if (suffix_of(files.front()) != kJson) return false;
   LabelNames names({});
-  return !std::holds_alternative<std::monostate>(read_label_json(files.front(), names));
+  return !std::holds_alternative<std::monostate>(read_label_json(files.front(), names, shape));
 }
 
 }  // namespace
@@ -463,7 +459,8 @@ bool holds_labels_only(const fs::path& path, const FieldShape* shape) {
   const std::string suffix = suffix_of(path);
   std::error_code ignored;
   try {
-    if (fs::is_directory(path, ignored)) return is_label_folder(path);
+    if (fs::is_directory(path, ignored))
+      return is_label_folder(path, shape ? *shape : FieldShape{});
     return is_among(kPictures, suffix) || suffix == kJson || holds_label_arrays(path, shape);
   } catch (const IoError&) {
     return false;  // what is wrong with it is said when it is opened
@@ -657,6 +654,10 @@ std::map<std::int32_t, std::int32_t> new_ids(std::vector<LabelInfo> all, std::in
   std::int32_t next = 1;
   for (const LabelInfo& label : all) {
     if (ids.contains(label.id)) continue;
+    if (label.id <= most && used.insert(label.id).second) {
+      ids[label.id] = label.id;
+      continue;
+    }
     while (used.contains(next)) ++next;
     if (next > most) {
       throw InvalidInput(

@@ -60,10 +60,13 @@ using LabelJson = std::variant<std::monostate, JsonPicture, CocoLabels>;
 [[nodiscard]] LabelJson read_label_json(const std::filesystem::path& path, LabelNames& names,
                                         const FieldShape& shape = {});
 
-/// Writes a file of labelme for one picture, with a polygon for each region, or a mask if it has
-/// holes; ids and colors stand under `episcope`, which labelme keeps. Shapes of labels of one name
-/// have the id behind it, `distinct_names`. Atomic. Throws IoError.
+/// Names of labels by which labelme can tell them apart: of labels of one name, and of names that
+/// mean unlabeled there, all but the first have their id behind it.
 [[nodiscard]] std::vector<std::string> distinct_names(const std::vector<LabelInfo>& infos);
+
+/// Writes a file of labelme for one picture, with a polygon for each region, or a mask if it has
+/// holes; ids and colors stand under `episcope`, which labelme keeps. Shapes have the
+/// `distinct_names`. Atomic. Throws IoError.
 void write_labelme(const std::filesystem::path& path, const std::string& picture,
                    ImageView<const std::int32_t> labels, const std::vector<LabelInfo>& infos);
 

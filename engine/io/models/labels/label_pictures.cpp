@@ -424,7 +424,9 @@ std::vector<std::string> ground_notes(const PixelCensus<std::int32_t>& census,
   const auto zeros = census.counts.find(0);
   if (zeros != census.counts.end()) {
     std::vector<std::string> notes;
-    if (labels.ignored && !labels.zero_is_label) {
+    const bool is_asked =
+        labels.ignored && (labels.ignored->empty() || std::ranges::count(*labels.ignored, 255) > 0);
+    if (is_asked && !labels.zero_is_label) {
       notes.push_back(
           fmt::format(finding_text("labels.zero"), path.filename().string(),
                       100.0 * static_cast<double>(zeros->second) / static_cast<double>(all)));

@@ -85,23 +85,27 @@ std::vector<NamedFile> named_views(const std::vector<fs::path>& paths, const Lab
   const GridShape grid = places.shape.grid;
   std::vector<NamedFile> files;
   std::vector<NameNumbers> names;
+  std::vector<std::size_t> unstated;
   for (const fs::path& path : paths) {
     files.push_back({path, stated_view(path, places)});
-    if (!files.back().view) names.push_back(numbered_name(path.stem().string()).numbers);
+    NameNumbers numbers = numbered_name(path.stem().string()).numbers;
+    if (files.back().view || numbers.size() < 2) continue;
+    names.push_back(std::move(numbers));
+    unstated.push_back(files.size() - 1);
   }
   if (names.empty()) return files;
   const std::vector<ViewNumbers> pairs = number_pairs(names, grid);
-  auto numbers = names.begin();
-  for (NamedFile& file : files) {
-    if (file.view) continue;
-    const NameNumbers& own = *numbers++;
-    if (own.size() < 2) continue;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const NameNumbers& own = names[i];
+    NamedFile& file = files[unstated[i]];
     const ViewNumbers last{own.size() - 2, own.size() - 1};
     file.view = view_of_numbers(own, pairs.empty() ? last : pairs.back(), grid);
-    if (pairs.size() < 2 || numbers != std::next(names.begin())) continue;
+    const bool is_doubtful = pairs.empty() ? own.size() > 2 : pairs.size() > 1;
+    const auto other =
+        view_of_numbers(own, pairs.empty() ? ViewNumbers{0, 1} : pairs.front(), grid);
+    if (i > 0 || !is_doubtful || !file.view || !other) continue;
     notes.push_back(fmt::format(finding_text("labels.numbers"), file.path.filename().string(),
-                                view_text(*file.view),
-                                view_text(*view_of_numbers(own, pairs.front(), grid))));
+                                view_text(*file.view), view_text(*other)));
   }
   return files;
 }

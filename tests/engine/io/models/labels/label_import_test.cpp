@@ -314,6 +314,10 @@ class LabelImportTest : public QObject {
         told(alone).contains("02_01_v1.png is taken for view (1,1), but its name may mean view "
                              "(2,1) as well"),
         qPrintable(told(alone)));
+    const auto all_vary = io::read_label_files({colored("00_01_v1.png", {1, 1, 1}, {2, 2, 2}),
+                                                colored("02_00_v2.png", {1, 1, 1}, {2, 2, 2})},
+                                               kPlaces);
+    QVERIFY2(told(all_vary).contains("as well"), qPrintable(told(all_vary)));
   }
 
   void picturesOfCocoThatAreNoViews_areLeftOut() {
