@@ -262,28 +262,24 @@ std::string other_view_text(const DisparityView& map, ViewIndex view, const Scen
       view_text(*best), view_text(view), least, as_read);
 }
 
-/// Not if the map would explain little without the offset, either.
-std::string offset_text(const DisparityView& map, const DisparityView& truth) {
-  const std::vector<double> differences = differences_of(map, truth);
+/// That a constant is off, unless the map would explain little without it, too; or that the map
+/// explains little.
+std::string misfit_text(const DisparityView& map, const DisparityView& truth) {
+  std::vector<double> differences = differences_of(map, truth);
   if (differences.empty()) return {};
-  std::vector<double> sorted = differences;
-  const double offset = quantile(sorted, 0.5);
   const double as_read = 100 * squares_of(differences).mean();
+  const double offset = quantile(differences, 0.5);
   const double without = 100 * squares_of(differences, offset).mean();
   const auto poor = io::find_poor_fit(map, truth);
   const bool is_enough = !poor || without < kFarBetter * poor->constant_mse_100;
-  if (std::abs(offset) < kSmallOffset_px || !(without < kFarBetter * as_read && is_enough))
-    return {};
-  return fmt::format(
-      "the map is off by {:+.3g} px everywhere: without that, MSE×100 would be {:.3g} instead of "
-      "{:.3g}; check which focus plane it belongs to (--focus)",
-      offset, without, as_read);
-}
-
-std::string poor_fit_text(const DisparityView& map, const DisparityView& truth) {
-  const auto fit = io::find_poor_fit(map, truth);
-  if (!fit) return {};
-  return fmt::format(finding_text("map.poor"), fit->mse_100, fit->constant_mse_100);
+  if (std::abs(offset) >= kSmallOffset_px && without < kFarBetter * as_read && is_enough) {
+    return fmt::format(
+        "the map is off by {:+.3g} px everywhere: without that, MSE×100 would be {:.3g} instead of "
+        "{:.3g}; check which focus plane it belongs to (--focus)",
+        offset, without, as_read);
+  }
+  if (!poor) return {};
+  return fmt::format(finding_text("map.poor"), poor->mse_100, poor->constant_mse_100);
 }
 
 }  // namespace
@@ -299,8 +295,7 @@ std::string doubt_text(const Estimate& estimate, const Scene& scene, bool is_of_
     text = other_view_text(map, *view, scene);
   }
   const ShownDisparity shown(scene.truth->field.view(*view), scene.light_field->valid_of(*view));
-  if (text.empty()) text = offset_text(map, shown.view());
-  return text.empty() ? poor_fit_text(map, shown.view()) : text;
+  return text.empty() ? misfit_text(map, shown.view()) : text;
 }
 
 bool is_ground_truth(const Estimate& estimate, const Scene& scene) {
