@@ -1,37 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/cli/slurm.h"
 
+#include "app/session/command_line.h"
 #include "engine/core/error.h"
 #include "engine/core/text.h"
 
 #include <fmt/format.h>
 
-#include <fcntl.h>
-#include <spawn.h>
 #include <sys/wait.h>
-#include <unistd.h>
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <thread>
+#include <cstdio>
+#include <memory>
 
 namespace episcope::cli {
 namespace {
 
 constexpr std::size_t kArrayTasks = 1000;
 
-/// As one word of the shell.
-std::string quoted(const std::string& text) {
-  std::string word = "'";
-  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return word + "'";
-}
-
 /// The command line of this program with these words behind "benchmark -o FOLDER".
 std::string benchmark_command(const std::filesystem::path& folder, const std::string& words) {
   const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
   return fmt::format("exec {} benchmark -o {} --quiet --threads \"${{SLURM_CPUS_ON_NODE:-0}}\" {}",
-                     quoted(program), quoted(folder.string()), words);
+                     shell_quoted(program), shell_quoted(folder.string()), words);
 }
 
 /// Where Slurm writes what a job prints; "%" begins a placeholder there.
@@ -43,21 +33,45 @@ std::string output_option(const std::filesystem::path& folder, const std::string
   return "--output=" + path + "/" + name;
 }
 
-std::string submit(const std::vector<std::string>& words) {
-  ProgramAnswer answer;
-  try {
-    answer = run_program("sbatch", words);
-  } catch (const Unavailable& error) {
-    throw Unavailable(std::string(error.what()) +
-                      "; submit from a machine of a Slurm cluster, or run the tasks by --plan and "
-                      "--point");
+struct ClosePipe {
+  void operator()(std::FILE* pipe) const { pclose(pipe); }
+};
+
+/// What the shell prints for a command.
+struct ShellAnswer {
+  std::string text;
+  int exit_code = 0;  ///< −1 if a signal ended it.
+};
+ShellAnswer answer_of_shell(const std::string& command) {
+  std::unique_ptr<std::FILE, ClosePipe> pipe(popen(command.c_str(), "re"));
+  if (!pipe) throw Unavailable("no more files can be opened");
+  ShellAnswer answer;
+  for (int c = std::fgetc(pipe.get()); c != EOF; c = std::fgetc(pipe.get())) {
+    answer.text += static_cast<char>(c);
   }
+  const int status = pclose(pipe.release());
+  answer.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return answer;
+}
+
+/// Returns the number of the job. Notices of sbatch may stand before it.
+std::string submit(const std::vector<std::string>& words) {
+  constexpr int kNotFound = 127;
+  const ShellAnswer answer =
+      answer_of_shell("sbatch " + joined(words, " ", shell_quoted) + " 2>&1");
+  if (answer.exit_code == kNotFound) {
+    throw Unavailable(
+        "sbatch is not installed; submit from a machine of a Slurm cluster, or run the tasks by "
+        "--plan and --point");
+  }
+  const std::string text(trimmed(answer.text, " \n"));
   if (answer.exit_code != 0) {
-    std::string why = answer.err.substr(0, answer.err.find_last_not_of(" \n") + 1);
+    std::string why = text;
     std::replace(why.begin(), why.end(), '\n', ' ');
     throw Error(fmt::format("sbatch refused the job (exit code {}): {}", answer.exit_code, why));
   }
-  return answer.out.substr(0, answer.out.find_first_of(";\n"));  // "17;cluster"
+  const std::string line = text.substr(text.rfind('\n') + 1);
+  return line.substr(0, line.find(';'));  // "17;cluster"
 }
 
 std::vector<std::string> with_options(std::vector<std::string> words,
@@ -143,79 +157,6 @@ SubmittedJobs submit_tasks(const std::filesystem::path& folder,
        "--dependency=afterany:" + joined(jobs.tasks, ":"), output_option(folder, "slurm-%j.txt")},
       options, benchmark_command(folder, "--collect")));
   return jobs;
-}
-
-namespace {
-
-/// One output of a program that is being started.
-struct Pipe {
-  Pipe() {
-    if (::pipe2(ends, O_CLOEXEC) != 0) throw Unavailable("no more files can be opened");
-  }
-  ~Pipe() {
-    for (const int end : ends) ::close(end);
-  }
-  Pipe(const Pipe&) = delete;
-  Pipe& operator=(const Pipe&) = delete;
-
-  void close_writing() {
-    ::close(ends[1]);
-    ends[1] = -1;
-  }
-  [[nodiscard]] std::string read_to_end() const {
-    std::string text;
-    char part[4096];
-    for (;;) {
-      const ssize_t count = ::read(ends[0], part, sizeof part);
-      if (count < 0 && errno == EINTR) continue;
-      if (count <= 0) return text;
-      text.append(part, static_cast<std::size_t>(count));
-    }
-  }
-
-  int ends[2] = {-1, -1};
-};
-
-pid_t start(const std::string& program, std::vector<std::string> words, const Pipe& out,
-            const Pipe& err) {
-  words.insert(words.begin(), program);
-  std::vector<char*> pointers;
-  pointers.reserve(words.size() + 1);
-  for (std::string& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, out.ends[1], STDOUT_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, err.ends[1], STDERR_FILENO);
-  pid_t id = 0;
-  const int error =
-      ::posix_spawnp(&id, program.c_str(), &actions, nullptr, pointers.data(), ::environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) throw Unavailable(program + " cannot be started: " + std::strerror(error));
-  return id;
-}
-
-int wait_for(pid_t id) {
-  int status = 0;
-  while (::waitpid(id, &status, 0) < 0 && errno == EINTR) {
-  }
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-}
-
-}  // namespace
-
-ProgramAnswer run_program(const std::string& program, const std::vector<std::string>& words) {
-  Pipe out, err;
-  const pid_t id = start(program, words, out, err);
-  out.close_writing();
-  err.close_writing();
-  ProgramAnswer answer;
-  {
-    const std::jthread reader([&] { answer.err = err.read_to_end(); });
-    answer.out = out.read_to_end();
-  }
-  answer.exit_code = wait_for(id);
-  return answer;
 }
 
 }  // namespace episcope::cli

@@ -42,16 +42,4 @@ struct SubmittedJobs {
                                          const std::vector<std::size_t>& numbers,
                                          const std::vector<std::string>& options);
 
-/// Exit code and output of a program.
-struct ProgramAnswer {
-  int exit_code = 0;  ///< 128 and the signal if it was killed by one.
-  std::string out;
-  std::string err;
-};
-
-/// Runs a program, found as the shell finds it, with these words, and waits for its end. Throws
-/// Unavailable if it cannot be started.
-[[nodiscard]] ProgramAnswer run_program(const std::string& program,
-                                        const std::vector<std::string>& words);
-
 }  // namespace episcope::cli

@@ -14,7 +14,6 @@
 #include "engine/core/version.h"
 #include "engine/io/base/atomic_file.h"
 #include "engine/io/base/files.h"
-#include "engine/io/base/hdf5_file.h"
 #include "engine/io/formats/write_scene.h"
 #include "engine/io/models/reader.h"
 #include "engine/io/open.h"
@@ -32,20 +31,6 @@ namespace episcope {
 namespace {
 
 constexpr const char* kDemo = "demo";
-
-// A built-in scene that was kept, as if it had been rendered: samples are copied, because the scene
-// shares them.
-LightFieldPtr renamed(const LightField& light_field, const std::string& name,
-                      const std::string& source) {
-  LightFieldInfo info = light_field.info();
-  info.name = name;
-  info.source = source;
-  info.reading = {scenes::kBuiltinReader, {}};
-  auto samples = std::visit([](const auto& stack) { return LightField::Samples(stack.clone()); },
-                            light_field.samples());
-  return std::make_shared<const LightField>(std::move(samples), std::move(info),
-                                            light_field.valid().clone());
-}
 
 // Of scenes with options there is no end: they are rendered each time.
 bool is_worth_keeping(const scenes::BuiltinRequest& request) {
@@ -75,21 +60,11 @@ void show_center_view(const Scene& center, GridShape grid, const io::OpenOptions
 void complete_kept_scene(Scene& kept, const Scene& center) {
   // Nobody else has seen the scene yet, and a copy of its truth would double the memory.
   const auto truth = std::const_pointer_cast<GroundTruth>(kept.truth);
-  truth->regions = center.truth->regions;
-  truth->stratified = center.truth->stratified;
+  if (truth->has_disparity() || truth->has_layers()) {
+    truth->regions = center.truth->regions;
+    truth->stratified = center.truth->stratified;
+  }
   kept.convention = center.convention;
-}
-
-// All samples of a scene that was rendered in its center view only.
-Scene without_truth(ViewStack<std::uint8_t> samples, const Scene& center,
-                    const std::string& source) {
-  LightFieldInfo info = center.light_field->info();
-  info.source = source;
-  Scene scene;
-  scene.light_field = std::make_shared<const LightField>(std::move(samples), std::move(info));
-  scene.truth = std::make_shared<const GroundTruth>();
-  scene.convention = center.convention;
-  return scene;
 }
 
 Scene load_builtin(const std::string& id, const LoadOptions& options, const Progress& progress) {
@@ -102,12 +77,9 @@ Scene load_builtin(const std::string& id, const LoadOptions& options, const Prog
   const Scene center = render_center_view(request, progress.part(0, 0.02));
   show_center_view(center, request.options.grid, options.open);
   progress.step("reading the built-in scene");
-  const SceneCache cache = cache_for(request, options.cache_folder);
-  if (!options.needs_truth) {
-    auto samples = cache.read_samples(request.scene, request.options, progress);
-    if (samples) return without_truth(std::move(*samples), center, source);
-  }
-  std::optional<Scene> scene = cache.read(request.scene, request.options, progress.part(0.02, 0.9));
+  std::optional<Scene> scene =
+      cache_for(request, options.cache_folder)
+          .read(request.scene, request.options, options.needs_truth, progress.part(0.02, 0.9));
   if (scene) {
     complete_kept_scene(*scene, center);
   } else {
@@ -115,7 +87,11 @@ Scene load_builtin(const std::string& id, const LoadOptions& options, const Prog
     scene = scenes::render_builtin(request.scene, request.options, progress.part(0.02, 1));
   }
   if (scene->light_field->info().source != source) {
-    scene->light_field = renamed(*scene->light_field, request.name(), source);
+    LightFieldInfo info = scene->light_field->info();
+    info.name = request.name();
+    info.source = source;
+    info.reading = {scenes::kBuiltinReader, {}};
+    scene->light_field = with_info(*scene->light_field, std::move(info));
   }
   return std::move(*scene);
 }
@@ -141,6 +117,13 @@ Scene open_light_field(const std::string& input, const io::OpenOptions& options,
 }
 
 }  // namespace
+
+LightFieldPtr with_info(const LightField& light_field, LightFieldInfo info) {
+  auto samples = std::visit([](const auto& stack) { return LightField::Samples(stack.clone()); },
+                            light_field.samples());
+  return std::make_shared<const LightField>(std::move(samples), std::move(info),
+                                            light_field.valid().clone());
+}
 
 std::string builtin_scene_id(const std::string& input) {
   const std::string prefix = std::string(kDemo) + ":";
@@ -261,7 +244,7 @@ std::filesystem::path SceneCache::place(const std::string& id,
 }
 
 std::optional<Scene> SceneCache::read(const std::string& id, const scenes::RenderOptions& options,
-                                      const Progress& progress) const {
+                                      bool needs_truth, const Progress& progress) const {
   const std::filesystem::path file = place(id, options) / "lf.h5";
   std::error_code ignored;
   if (folder_.empty() || !std::filesystem::exists(file, ignored)) return std::nullopt;
@@ -269,34 +252,10 @@ std::optional<Scene> SceneCache::read(const std::string& id, const scenes::Rende
     // The order is ours: checking it would only take time.
     io::OpenOptions open;
     open.flip = io::Flip::None;
+    open.needs_truth = needs_truth;
     return io::open_scene(file, open, progress);
   } catch (const Error&) {
     std::filesystem::remove_all(place(id, options), ignored);
-    return std::nullopt;
-  }
-}
-
-std::optional<ViewStack<std::uint8_t>> SceneCache::read_samples(
-    const std::string& id, const scenes::RenderOptions& options, const Progress& progress) const {
-  const std::filesystem::path path = place(id, options) / "lf.h5";
-  if (folder_.empty() || !io::is_there(path)) return std::nullopt;
-  try {
-    const io::Hdf5Input file(path);
-    ViewStack<std::uint8_t> stack(options.grid, options.height, options.width, options.channels);
-    const auto length = [](int n) { return static_cast<std::size_t>(n); };
-    const io::Hdf5Shape shape{length(options.grid.v), length(options.grid.u),
-                              length(options.height), length(options.width),
-                              length(options.channels)};
-    const io::Hdf5Dataset dataset = file.dataset("LF");
-    if (dataset.shape != shape || dataset.type != io::Hdf5Type::UInt8) return std::nullopt;
-    for (int i = 0; i < options.grid.count(); ++i) {
-      progress.check();
-      const ViewIndex view = options.grid.view_at(i);
-      file.read("LF", io::view_block(shape, view), stack.view(view).data);
-      progress.report((i + 1.0) / options.grid.count());
-    }
-    return stack;
-  } catch (const IoError&) {
     return std::nullopt;
   }
 }
@@ -360,24 +319,21 @@ void show_center(const capture::DemoOptions& options, const io::OpenOptions& ope
                       options.grid);
 }
 
-LightField::Samples copy_of(const LightField& field) {
-  return std::visit([](const auto& all) { return LightField::Samples(all.clone()); },
-                    field.samples());
-}
-
-LightField::Samples photographs_of(const capture::DemoOptions& options, const fs::path& cache,
-                                   const Progress& progress) {
-  if (!cache.empty()) {
-    const fs::path place = place_of(options, cache);
-    if (is_whole(place) || make_folder(place, options, progress.part(0, 0.95))) {
-      const io::OpenOptions as_written{.flip = io::Flip::None};
-      return copy_of(*io::open_scene(GantryFolder{place}.photographs().string(), as_written,
-                                     progress.part(0.95, 1))
-                          .light_field);
-    }
+LightFieldPtr photographs_of(const capture::DemoOptions& options, LightFieldInfo info,
+                             const fs::path& cache, const Progress& progress) {
+  const fs::path place = place_of(options, cache);
+  const bool is_kept =
+      !cache.empty() && (is_whole(place) || make_folder(place, options, progress.part(0, 0.95)));
+  if (!is_kept) {
+    return std::make_shared<const LightField>(
+        capture::demo_photographs(capture::demo_rig(options), capture::scan_mesh(options.detail),
+                                  progress),
+        std::move(info));
   }
-  return copy_of(capture::demo_photographs(capture::demo_rig(options),
-                                           capture::scan_mesh(options.detail), progress));
+  const io::OpenOptions as_written{.flip = io::Flip::None};
+  const std::string photographs = GantryFolder{place}.photographs().string();
+  return with_info(*io::open_scene(photographs, as_written, progress.part(0.95, 1)).light_field,
+                   std::move(info));
 }
 
 }  // namespace
@@ -443,8 +399,8 @@ Scene load_gantry(const std::string& id, const LoadOptions& options, const Progr
   info.source = "demo:" + id;
   info.reading.reader = scenes::kBuiltinReader;
   Scene scene;
-  scene.light_field = std::make_shared<const LightField>(
-      photographs_of(demo, options.cache_folder, progress.part(0.05, 1)), std::move(info));
+  scene.light_field =
+      photographs_of(demo, std::move(info), options.cache_folder, progress.part(0.05, 1));
   scene.truth = std::make_shared<const GroundTruth>();
   scene.convention.format = "photographs of the built-in gantry";
   scene.convention.order = "canonical order";

@@ -25,12 +25,16 @@ struct LoadOptions {
   bool needs_truth = true;
 };
 
+/// A copy of a light field with other facts.
+[[nodiscard]] LightFieldPtr with_info(const LightField& light_field, LightFieldInfo info);
+
 /// What follows `demo:` if `input` is `demo`, `demo?<options>` (the scene `demo` with options) or
 /// `demo:<scene>`, which `scenes::read_request` reads; else empty.
 [[nodiscard]] std::string builtin_scene_id(const std::string& input);
 
 /// Id of the reader of an input (engine/io/models/reader.h), or of the only light field below it,
-/// which load_scene opens; "builtin" for built-in scenes; empty if nobody reads it. Throws IoError if it is not there or damaged.
+/// which load_scene opens; "builtin" for built-in scenes; empty if nobody reads it. Throws IoError
+/// if it is not there or damaged.
 [[nodiscard]] std::string reader_of(const std::string& input, const io::OpenOptions& options);
 
 /// Opens anything that a user can name: `demo`, `demo:<scene>`, `demo:random?seed=7`, or a path
@@ -74,14 +78,11 @@ class SceneCache {
   /// Where a scene is kept.
   [[nodiscard]] std::filesystem::path place(const std::string& id,
                                             const scenes::RenderOptions& options) const;
-  /// Empty if the scene is not there. One that cannot be read is removed. Throws Cancelled.
+  /// Empty if the scene is not there. One that cannot be read is removed. `needs_truth`: as of
+  /// LoadOptions. Throws Cancelled.
   [[nodiscard]] std::optional<Scene> read(const std::string& id,
-                                          const scenes::RenderOptions& options,
+                                          const scenes::RenderOptions& options, bool needs_truth,
                                           const Progress& progress) const;
-  /// Samples of a kept scene without its truth, which takes several times their memory. Empty if
-  /// they are not there, damaged or of another shape. Throws Cancelled.
-  [[nodiscard]] std::optional<ViewStack<std::uint8_t>> read_samples(
-      const std::string& id, const scenes::RenderOptions& options, const Progress& progress) const;
   /// Returns whether the scene is kept now. What cannot be written is not kept. Throws Cancelled.
   bool write(const std::string& id, const scenes::RenderOptions& options, const Scene& scene,
              const Progress& progress) const;

@@ -160,17 +160,30 @@ Json judged_json(const JudgedPart& part, const fs::path& project) {
   return json;
 }
 
-Json result_json(const ProjectResult& result, const fs::path& project) {
+Json result_json(const EstimateEntry& result, const fs::path& project) {
   Json json{{"name", result.name},
-            {"file", source_text(result.file.string(), project)},
+            {"file", source_text(result.kept.string(), project)},
             {"display_range", interval_json(result.display_range)},
-            {"shown", result.is_shown},
-            {"compared", result.is_compared}};
-  if (result.was_shown_before) json["shown_before"] = true;
+            {"shown", false},
+            {"compared", false}};
   if (result.is_saved) json["saved"] = true;
   if (!result.note.empty()) json["note"] = result.note;
   if (!result.foreign_file.empty()) json["foreign_file"] = result.foreign_file.string();
   return json;
+}
+
+// Those that could not be read come last, and are neither shown nor compared.
+Json results_json(const ProjectScene& scene, const fs::path& project) {
+  Json results = Json::array();
+  for (const EstimateEntry& each : scene.estimates) {
+    Json json = result_json(each, project);
+    json["shown"] = each.id == scene.shown;
+    if (each.id == scene.compared)
+      json[scene.is_compared_chosen ? "compared" : "shown_before"] = true;
+    results.push_back(std::move(json));
+  }
+  for (const EstimateEntry& each : scene.unread) results.push_back(result_json(each, project));
+  return results;
 }
 
 Json scene_json(const ProjectScene& scene, const fs::path& project) {
@@ -179,10 +192,7 @@ Json scene_json(const ProjectScene& scene, const fs::path& project) {
             {"hash", hash_digits(scene.sample_hash)},
             {"reading", io::parameters_json(scene.reading)},
             {"place", place_json(scene.place)},
-            {"results", Json::array()}};
-  for (const ProjectResult& each : scene.results) {
-    json["results"].push_back(result_json(each, project));
-  }
+            {"results", results_json(scene, project)}};
   const CaptureWork& capture = scene.place.capture;
   if (!capture.empty()) json["capture"] = io::parse_json<Json>(capture_to_json(capture, project));
   const JudgedPart& judged = scene.place.judged;
@@ -210,16 +220,18 @@ JudgedPart judged_of(const Json& json, const fs::path& project) {
   return part;
 }
 
-ProjectResult result_of(const Json& json, const fs::path& project) {
-  return {.name = json.at("name"),
-          .file = absolute_path(json.at("file"), project),
-          .display_range = interval_of(json.at("display_range")),
-          .is_shown = json.at("shown"),
-          .is_compared = json.at("compared"),
-          .was_shown_before = json.value("shown_before", false),
-          .is_saved = json.value("saved", false),
-          .note = json.value("note", ""),
-          .foreign_file = json.value("foreign_file", "")};
+void add_result(const Json& json, const fs::path& project, ProjectScene& scene) {
+  EstimateEntry& result = scene.estimates.emplace_back();
+  result.id = static_cast<int>(scene.estimates.size());
+  result.name = json.at("name");
+  result.kept = absolute_path(json.at("file"), project);
+  result.display_range = interval_of(json.at("display_range"));
+  result.is_saved = json.value("saved", false);
+  result.note = json.value("note", "");
+  result.foreign_file = json.value("foreign_file", "");
+  if (json.at("shown")) scene.shown = result.id;
+  if (json.at("compared")) scene.is_compared_chosen = true;
+  if (json.at("compared") || json.value("shown_before", false)) scene.compared = result.id;
 }
 
 ProjectScene scene_of(const Json& json, const fs::path& project) {
@@ -230,7 +242,7 @@ ProjectScene scene_of(const Json& json, const fs::path& project) {
   scene.sample_hash = hash_from_digits(json.at("hash").get<std::string>());
   scene.reading = io::stored_options(io::parameters_from(json.at("reading")));
   scene.place = place_of(json.at("place"));
-  for (const Json& each : json.at("results")) scene.results.push_back(result_of(each, project));
+  for (const Json& each : json.at("results")) add_result(each, project, scene);
   if (json.contains("capture")) {
     scene.place.capture = capture_from_json(io::json_text(json.at("capture")), project);
   }
@@ -399,7 +411,7 @@ void require_files_beside(const Project& project, const fs::path& path) {
   for (const ProjectScene& scene : project.scenes) {
     require(scene.strokes);
     require(scene.labels.file);
-    for (const ProjectResult& result : scene.results) require(result.file);
+    for (const EstimateEntry& result : scene.estimates) require(result.kept);
   }
 }
 

@@ -49,7 +49,8 @@ std::set<fs::path> files_in(const Project& project, const fs::path& folder) {
     add(scene.strokes);
     add(scene.unread_strokes);
     add(scene.labels.file);
-    for (const ProjectResult& result : scene.results) add(result.file);
+    for (const EstimateEntry& result : scene.estimates) add(result.kept);
+    for (const EstimateEntry& result : scene.unread) add(result.kept);
   }
   return files;
 }
@@ -80,19 +81,16 @@ fs::path copied_unread(const fs::path& folder, const fs::path& file) {
 }
 
 void store_results(ProjectScene& scene, const fs::path& folder, const Progress& progress) {
-  for (ProjectResult& result : scene.results) {
-    const std::string stem = scene.name + "_" + result.name;
-    if (!is_in_file(result)) result.file.clear();
-    if (result.is_unread) {
-      result.file = copied_unread(folder, result.file);
-    } else if (result.file.empty()) {
-      result.file = store_result(folder, scene.name, result, scene.input, progress);
-    } else if (result.file.parent_path() != folder) {
-      result.file = copied_into(folder, stem, result.file);
+  for (EstimateEntry& result : scene.estimates) {
+    if (!is_in_file(result)) {
+      result.kept = store_result(folder, scene, result, progress);
+    } else if (result.kept.parent_path() != folder) {
+      result.kept = copied_into(folder, scene.name + "_" + result.name, result.kept);
     }
     progress.check();
   }
-  std::erase_if(scene.results, [](const ProjectResult& each) { return each.file.empty(); });
+  for (EstimateEntry& result : scene.unread) result.kept = copied_unread(folder, result.kept);
+  std::erase_if(scene.unread, [](const EstimateEntry& each) { return each.kept.empty(); });
 }
 
 void store_scene_labels(ProjectScene& scene, const fs::path& folder, const Progress& progress) {
@@ -118,15 +116,15 @@ void store_strokes(ProjectScene& scene, const fs::path& folder) {
 
 }  // namespace
 
-bool is_in_file(const ProjectResult& result) {
-  return !result.file.empty() && (!result.estimate || io::is_there(result.file));
+bool is_in_file(const EstimateEntry& result) {
+  return !result.kept.empty() && (!result.estimate || io::is_there(result.kept));
 }
 
-fs::path store_result(const fs::path& folder, const std::string& scene, const ProjectResult& result,
-                      const std::string& input, const Progress& progress) {
+fs::path store_result(const fs::path& folder, const ProjectScene& scene,
+                      const EstimateEntry& result, const Progress& progress) {
   io::make_folder(folder);
-  const fs::path file = unused_file(folder, file_name_of(scene + "_" + result.name), ".h5");
-  save_result(file, *result.estimate, input, progress);
+  const fs::path file = unused_file(folder, file_name_of(scene.name + "_" + result.name), ".h5");
+  save_result(file, *result.estimate, scene.input, progress);
   return file;
 }
 
@@ -158,82 +156,24 @@ Project store_project(const fs::path& path, Project project, const Progress& pro
   return project;
 }
 
-namespace {
-
-ProjectResult result_of(const EstimateEntry& entry) {
-  return {.name = entry.name,
-          .file = entry.kept,
-          .display_range = entry.display_range,
-          .is_saved = entry.is_saved,
-          .note = entry.note,
-          .foreign_file = entry.foreign_file,
-          .id = entry.id,
-          .estimate = entry.estimate};
-}
-
-ProjectScene project_scene_of(const OpenScene& open) {
-  ProjectScene scene{.name = open.name,
-                     .input = open.input,
-                     .sample_hash = open.sample_hash,
-                     .reading = open.reading,
-                     .place = open.place,
-                     .id = open.id,
-                     .results = {},
-                     .strokes = open.unread_strokes,
-                     .unread_strokes = open.unread_strokes,
-                     .labels = open.labels};
-  for (const EstimateEntry& entry : open.estimates) {
-    ProjectResult result = result_of(entry);
-    result.is_shown = entry.id == open.shown;
-    const bool is_b = entry.id == open.compared;
-    result.is_compared = is_b && open.is_compared_chosen;
-    result.was_shown_before = is_b && !open.is_compared_chosen;
-    scene.results.push_back(std::move(result));
-  }
-  for (const EstimateEntry& entry : open.unread) {
-    if (entry.kept.empty()) continue;
-    scene.results.push_back(result_of(entry));
-    scene.results.back().is_unread = true;
-  }
-  return scene;
-}
-
-}  // namespace
-
 Project project_of(const Session& session) {
   Project project;
   project.bad_threshold_px = session.bad_threshold_px();
   for (const OpenScene* each : session.scenes()) {
     if (each->id == session.generation()) project.current = project.scenes.size();
-    project.scenes.push_back(project_scene_of(*each));
+    ProjectScene& scene = project.scenes.emplace_back(ProjectScene{*each, each->unread_strokes});
+    scene.scene.reset();
+    scene.true_labels.reset();
+    scene.label_disparity.reset();
+    std::erase_if(scene.unread, [](const EstimateEntry& entry) { return entry.kept.empty(); });
   }
   return project;
 }
 
-OpenScene scene_of(const ProjectScene& scene, bool is_saved) {
-  OpenScene open;
-  open.name = scene.name;
-  open.input = scene.input;
-  open.reading = scene.reading;
-  open.sample_hash = scene.sample_hash;
-  open.place = scene.place;
-  open.labels = scene.labels;
-  open.labels.is_saved = is_saved;
-  int id = 0;
-  for (const ProjectResult& result : scene.results) {
-    open.estimates.push_back({.id = ++id,
-                              .name = result.name,
-                              .estimate = nullptr,
-                              .display_range = result.display_range,
-                              .is_saved = is_saved || result.is_saved,
-                              .kept = result.file,
-                              .note = result.note,
-                              .foreign_file = result.foreign_file});
-    if (result.is_shown) open.shown = id;
-    if (result.is_compared || result.was_shown_before) open.compared = id;
-    if (result.is_compared) open.is_compared_chosen = true;
-  }
-  return open;
+OpenScene scene_of(OpenScene scene, bool is_saved) {
+  scene.labels.is_saved = is_saved;
+  for (EstimateEntry& result : scene.estimates) result.is_saved = is_saved || result.is_saved;
+  return scene;
 }
 
 MovedFolder moved_folder(const fs::path& from, const fs::path& to) {

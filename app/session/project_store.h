@@ -14,16 +14,14 @@
 namespace episcope {
 
 /// Whether its file holds a result: one that is in memory may have lost its file.
-[[nodiscard]] bool is_in_file(const ProjectResult& result);
+[[nodiscard]] bool is_in_file(const EstimateEntry& result);
 
 /// Writes a result that is in memory to a file of `folder` that no other has, named after it.
 /// Atomic. Returns the file. Throws IoError, Cancelled.
 [[nodiscard]] std::filesystem::path store_result(const std::filesystem::path& folder,
-                                                 const std::string& scene,
-                                                 const ProjectResult& result,
-                                                 const std::string& input,
+                                                 const ProjectScene& scene,
+                                                 const EstimateEntry& result,
                                                  const Progress& progress);
-
 /// Writes the labels of a scene in the same way.
 [[nodiscard]] std::filesystem::path store_labels(const std::filesystem::path& folder,
                                                  const ProjectScene& scene,
@@ -39,7 +37,7 @@ namespace episcope {
 [[nodiscard]] Project project_of(const Session& session);
 
 /// A scene of a project, on disk only. `is_saved`: the project is a file of the user's.
-[[nodiscard]] OpenScene scene_of(const ProjectScene& scene, bool is_saved);
+[[nodiscard]] OpenScene scene_of(OpenScene scene, bool is_saved);
 
 /// Where a folder was and where it is now.
 struct MovedFolder {

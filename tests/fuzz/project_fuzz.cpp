@@ -28,7 +28,10 @@ Project seed_project(const std::filesystem::path& folder) {
   scene.input = (folder / "scenes/a.h5").string();
   scene.reading = {{"flip", std::string("u")}, {"frame", 2}};
   scene.strokes = folder / "seed_files/a.strokes";
-  scene.results.push_back({.name = "EPI_S", .file = folder / "seed_files/a_EPI_S.h5"});
+  scene.estimates.push_back({.name = "EPI_S",
+                             .estimate = nullptr,
+                             .display_range = {},
+                             .kept = folder / "seed_files/a_EPI_S.h5"});
   scene.place.tone.gamma = 2;
   scene.place.label_marks.hidden = {1, 2};
   scene.place.capture.lens = CaptureLens{.camera = {64, 48, 60, 60, 32, 24, {-0.1}, 0.2},

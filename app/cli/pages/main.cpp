@@ -16,45 +16,11 @@
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace episcope::cli {
 namespace {
-
-/// An option as it is declared.
-struct OptionPage {
-  std::vector<std::string> names;    ///< "-o", "--output".
-  std::string value;                 ///< "OUT.h5"; empty for a flag.
-  std::vector<std::string> choices;  ///< Where only certain words are values.
-  std::string help;
-  std::string heading;
-};
-
-struct PositionalPage {
-  std::string name;
-  std::string help;
-  bool several = false;
-};
-
-/// A method of `estimate`, with the options that are its parameters.
-struct MethodPage {
-  std::string id;
-  std::string name;
-  std::string summary;
-  std::string reference;
-  std::vector<OptionPage> parameters;
-};
-
-/// A verb as it declares itself.
-struct VerbPage {
-  std::string name;
-  std::string summary;      ///< Of the table of verbs, one line.
-  std::string description;  ///< Of the verb's help, several lines.
-  std::string example;      ///< One or more lines.
-  std::vector<PositionalPage> positionals;
-  std::vector<OptionPage> options;
-  std::vector<MethodPage> methods{};  ///< Of `estimate`.
-};
 
 using nlohmann::json;
 
@@ -68,45 +34,44 @@ json answer_of(const Verb& verb, VerbArguments arguments) {
   return json::parse(answer.str());
 }
 
-std::vector<OptionPage> options_of(const json& answer) {
-  std::vector<OptionPage> options;
-  for (const json& each : answer.at("options")) {
-    options.push_back({each.at("names"), each.at("value"), each.at("choices"), each.at("help"),
-                       each.at("heading")});
-  }
-  return options;
-}
-
-VerbPage page_of(const Verb& verb) {
-  const json answer = answer_of(verb, {});
-  VerbPage page{verb.name, verb.summary,      answer.at("summary"), answer.at("example"),
-                {},        options_of(answer)};
-  for (const json& each : answer.at("positionals")) {
-    page.positionals.push_back({each.at("name"), each.at("help"), each.at("several")});
-  }
-  return page;
-}
-
-/// The methods of `estimate`: what it declares beyond what it declares without a method.
-std::vector<MethodPage> methods_of(const Verb& verb, std::size_t common) {
-  std::vector<MethodPage> methods;
-  for (const Estimator& estimator : registered_estimators()) {
-    const EstimatorInfo& info = estimator.info;
-    std::vector<OptionPage> options = options_of(answer_of(verb, {info.id}));
-    options.erase(options.begin(), options.begin() + static_cast<std::ptrdiff_t>(common));
-    methods.push_back({info.id, info.name, info.summary, info.reference, std::move(options)});
-  }
-  return methods;
-}
-
-/// Every verb, in the order of the help, asked for its `--help-json`.
-std::vector<VerbPage> verb_pages() {
-  std::vector<VerbPage> pages;
+/// Every verb, in the order of the help, as its `--help-json` describes it ("options",
+/// "positionals", …). `estimate` has "methods", whose options are what it declares beyond its own.
+std::vector<json> verb_pages() {
+  std::vector<json> pages;
   for (const Verb& verb : verbs()) {
-    VerbPage& page = pages.emplace_back(page_of(verb));
-    if (verb.run == run_estimate) page.methods = methods_of(verb, page.options.size());
+    json& page = pages.emplace_back(answer_of(verb, {}));
+    page["name"] = verb.name;
+    page["description"] = std::exchange(page["summary"], verb.summary);
+    page["methods"] = json::array();
+    if (verb.run != run_estimate) continue;
+    const auto common = static_cast<json::difference_type>(page["options"].size());
+    for (const Estimator& estimator : registered_estimators()) {
+      const EstimatorInfo& info = estimator.info;
+      json options = answer_of(verb, {info.id})["options"];
+      options.erase(options.begin(), options.begin() + common);
+      page["methods"].push_back(
+          {{"name", info.id},
+           {"summary", info.summary},
+           {"about", info.name + ": " + info.summary + ". " + info.reference + "."},
+           {"options", std::move(options)}});
+    }
   }
   return pages;
+}
+
+/// The text of a member.
+std::string text(const json& object, const char* key) {
+  return object.at(key).get<std::string>();
+}
+
+/// The texts of a list, with `separator` between them.
+std::string words(const json& list, std::string_view separator) {
+  return joined(list, separator, [](const json& each) { return each.get<std::string>(); });
+}
+
+/// The names of verbs or methods.
+std::string names(const json& list) {
+  return joined(list, " ", [](const json& each) { return text(each, "name"); });
 }
 
 /// A text in which troff sees no request and no hyphen but typed ones; lines may break after "|".
@@ -155,33 +120,32 @@ std::string entry(const std::string& term, const std::string& text) {
   return ".TP\n" + term + "\n" + troff(text) + "\n";
 }
 
-std::string option_entry(const OptionPage& option) {
-  const std::string names = joined(option.names, ", ", bold);
-  if (option.value.empty()) return entry(names, option.help);
-  return entry(fmt::format("{} {}", names, italic(option.value)), option.help);
+std::string option_entry(const json& option) {
+  const std::string value = text(option, "value");
+  const std::string names = joined(option.at("names"), ", ",
+                                   [](const json& name) { return bold(name.get<std::string>()); });
+  return entry(value.empty() ? names : names + " " + italic(value), text(option, "help"));
 }
 
-std::string option_entries(const std::vector<OptionPage>& options, std::string heading) {
-  std::string text;
-  for (const OptionPage& option : options) {
-    if (option.heading != heading) {
-      heading = option.heading;
-      text += ".SS \"" + troff(heading) + "\"\n";
+std::string option_entries(const json& options, std::string heading) {
+  std::string entries;
+  for (const json& option : options) {
+    if (text(option, "heading") != heading) {
+      heading = text(option, "heading");
+      entries += ".SS \"" + troff(heading) + "\"\n";
     }
-    text += option_entry(option);
+    entries += option_entry(option);
   }
-  return text;
+  return entries;
 }
 
-std::string method_entries(const std::vector<MethodPage>& methods) {
-  if (methods.empty()) return {};
-  std::string text = section("METHODS");
-  for (const MethodPage& method : methods) {
-    text += ".SS \"" + troff(method.id) + "\"\n" +
-            troff(method.name + ": " + method.summary + ". " + method.reference + ".") + "\n";
-    for (const OptionPage& option : method.parameters) text += option_entry(option);
+std::string method_entries(const json& methods) {
+  std::string entries = methods.empty() ? std::string() : section("METHODS");
+  for (const json& method : methods) {
+    entries += ".SS \"" + troff(text(method, "name")) + "\"\n" + troff(text(method, "about")) +
+               "\n" + joined(method.at("options"), "", option_entry);
   }
-  return text;
+  return entries;
 }
 
 std::string exit_status() {
@@ -191,38 +155,37 @@ std::string exit_status() {
          entry(bold(fmt::format("{}", kCancelled)), "Cancelled; nothing half-written is left.");
 }
 
-std::string synopsis(const VerbPage& verb) {
-  std::string text =
-      section("SYNOPSIS") + bold("episcope-cli " + verb.name) + " [" + italic("OPTION") + "]...";
-  for (const PositionalPage& each : verb.positionals) {
-    text += fmt::format(" {}{}", italic(each.name), each.several ? "..." : "");
+std::string verb_man_page(const json& verb) {
+  const std::string name = "episcope-cli-" + text(verb, "name");
+  std::string synopsis, inputs;
+  for (const json& each : verb.at("positionals")) {
+    const std::string positional = italic(text(each, "name"));
+    synopsis += " " + positional + (each.at("several") ? "..." : "");
+    inputs += entry(positional, text(each, "help"));
   }
-  return text + "\n";
+  return head(name, text(verb, "summary")) + section("SYNOPSIS") +
+         bold("episcope-cli " + text(verb, "name")) + " [" + italic("OPTION") + "]..." + synopsis +
+         "\n" + section("DESCRIPTION") + typed_lines(text(verb, "description")) + inputs +
+         section("OPTIONS") + entry(bold("-h") + ", " + bold("--help"), "Print help and exit") +
+         option_entries(verb.at("options"), "Options") + method_entries(verb.at("methods")) +
+         exit_status() + section("EXAMPLES") + typed_lines("  " + text(verb, "example")) +
+         section("SEE ALSO") + ".BR episcope\\-cli (1)\n";
 }
 
-std::string verb_man_page(const VerbPage& verb) {
-  std::string text = head("episcope-cli-" + verb.name, verb.summary) + synopsis(verb);
-  text += section("DESCRIPTION") + typed_lines(verb.description);
-  for (const PositionalPage& each : verb.positionals) text += entry(italic(each.name), each.help);
-  text += section("OPTIONS") + entry(bold("-h") + ", " + bold("--help"), "Print help and exit");
-  text += option_entries(verb.options, "Options") + method_entries(verb.methods) + exit_status();
-  text += section("EXAMPLES") + typed_lines("  " + verb.example);
-  return text + section("SEE ALSO") + ".BR episcope\\-cli (1)\n";
-}
-
-std::string program_man_page(const std::vector<VerbPage>& verbs) {
-  std::string text = head("episcope-cli", "disparity and labels of 4D light fields") +
+std::string program_man_page(const std::vector<json>& verbs) {
+  std::string page = head("episcope-cli", "disparity and labels of 4D light fields") +
                      section("SYNOPSIS") + bold("episcope-cli") + " " + italic("VERB") + " ...\n" +
                      section("DESCRIPTION") + troff(kProgramSummary) + "\n.PP\n" +
                      troff(kInputHelp) + section("VERBS");
-  for (const VerbPage& verb : verbs) {
-    text += entry(bold(verb.name), verb.summary + "; see episcope-cli-" + verb.name + "(1).");
+  for (const json& verb : verbs) {
+    const std::string name = text(verb, "name");
+    page += entry(bold(name), text(verb, "summary") + "; see episcope-cli-" + name + "(1).");
   }
-  text += section("OPTIONS") +
+  page += section("OPTIONS") +
           entry(bold("-h") + ", " + bold("--help"), "Print help, or after a verb its help.") +
           entry(bold("--version"), "Print version, commit and libraries.");
-  text += exit_status() + section("EXAMPLES") + typed_lines(kProgramExample);
-  return text + section("SEE ALSO") + ".BR episcope (1)\n";
+  page += exit_status() + section("EXAMPLES") + typed_lines(kProgramExample);
+  return page + section("SEE ALSO") + ".BR episcope (1)\n";
 }
 
 /// Page of the window, around what its `--help` prints.
@@ -247,50 +210,50 @@ constexpr const char* kTail = R"(
 complete -o default -F _episcope_cli episcope-cli
 )";
 
-std::string names_of(const std::vector<OptionPage>& options) {
-  return joined(options, " ", [](const OptionPage& each) { return joined(each.names, " "); });
+std::string option_names(const json& options) {
+  return joined(options, " ", [](const json& each) { return words(each.at("names"), " "); });
 }
 
 /// Branches that complete the value of an option: its words, or a file where it has none.
-std::string value_branches(const std::vector<OptionPage>& options, const std::string& indent) {
-  std::string text = indent + "case $prev in\n";
-  for (const OptionPage& each : options) {
-    if (each.value.empty()) continue;
-    const std::string names = joined(each.names, "|");
-    text += each.choices.empty() ? fmt::format("{}  {}) return ;;\n", indent, names)
-                                 : fmt::format("{}  {}) words=\"{}\" options=\"\" ;;\n", indent,
-                                               names, joined(each.choices, " "));
+std::string value_branches(const json& options, const std::string& indent) {
+  std::string branches = indent + "case $prev in\n";
+  for (const json& each : options) {
+    if (text(each, "value").empty()) continue;
+    const std::string choices = words(each.at("choices"), " ");
+    branches +=
+        fmt::format("{}  {}) {} ;;\n", indent, words(each.at("names"), "|"),
+                    choices.empty() ? "return" : fmt::format("words=\"{}\" options=\"\"", choices));
   }
-  return text + indent + "esac\n";
+  return branches + indent + "esac\n";
 }
 
-std::string method_branches(const VerbPage& verb) {
-  if (verb.methods.empty()) return {};
-  const std::string ids = joined(verb.methods, " ", &MethodPage::id);
-  std::string text = fmt::format("      ((COMP_CWORD == 2)) && words=\"{}\"\n", ids);
-  text += "      case $method in\n";
-  for (const MethodPage& method : verb.methods) {
-    text +=
-        fmt::format("        {})\n          options+=\" {}\"\n{}          ;;\n", method.id,
-                    names_of(method.parameters), value_branches(method.parameters, "          "));
+std::string method_branches(const json& methods) {
+  if (methods.empty()) return {};
+  std::string branches = fmt::format("      ((COMP_CWORD == 2)) && words=\"{}\"\n", names(methods));
+  branches += "      case $method in\n";
+  for (const json& method : methods) {
+    branches += fmt::format("        {})\n          options+=\" {}\"\n{}          ;;\n",
+                            text(method, "name"), option_names(method.at("options")),
+                            value_branches(method.at("options"), "          "));
   }
-  return text + "      esac\n";
+  return branches + "      esac\n";
 }
 
 /// Completion of verbs, options, methods with their parameters, and the words that options take;
 /// where none of these is asked for, of files.
-std::string bash_completion(const std::vector<VerbPage>& verbs) {
-  std::string text = kHead;
-  text += fmt::format(
+std::string bash_completion(const std::vector<json>& verbs) {
+  std::string script = kHead;
+  script += fmt::format(
       "  if ((COMP_CWORD == 1)); then\n    COMPREPLY=($(compgen -W \"{} --help --version\" -- "
       "\"$cur\"))\n    return\n  fi\n  case $verb in\n",
-      joined(verbs, " ", &VerbPage::name));
-  for (const VerbPage& verb : verbs) {
-    text += fmt::format("    {})\n      options=\"--help {}\"\n{}{}      ;;\n", verb.name,
-                        names_of(verb.options), method_branches(verb),
-                        value_branches(verb.options, "      "));
+      names(verbs));
+  for (const json& verb : verbs) {
+    script +=
+        fmt::format("    {})\n      options=\"--help {}\"\n{}{}      ;;\n", text(verb, "name"),
+                    option_names(verb.at("options")), method_branches(verb.at("methods")),
+                    value_branches(verb.at("options"), "      "));
   }
-  return text + "  esac" + kTail;
+  return script + "  esac" + kTail;
 }
 
 std::string fish_quoted(const std::string& text) {
@@ -302,39 +265,44 @@ std::string fish_quoted(const std::string& text) {
   return result + "'";
 }
 
-std::string option_line(const OptionPage& option, const std::string& condition) {
+std::string option_line(const json& option, const std::string& condition) {
   std::string line = "complete -c episcope-cli -n " + fish_quoted(condition);
-  for (const std::string& name : option.names) {
+  for (const std::string name : option.at("names")) {
     line += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
   }
-  if (!option.choices.empty()) {
-    line += " -x -a " + fish_quoted(joined(option.choices, " "));
-  } else if (!option.value.empty()) {
+  if (!option.at("choices").empty()) {
+    line += " -x -a " + fish_quoted(words(option.at("choices"), " "));
+  } else if (!text(option, "value").empty()) {
     line += " -r";
   }
-  return line + " -d " + fish_quoted(option.help) + "\n";
+  return line + " -d " + fish_quoted(text(option, "help")) + "\n";
 }
 
-std::string fish_completion(const std::vector<VerbPage>& verbs) {
-  std::string text = "# fish completion for episcope-cli\n";
-  text +=
-      "complete -c episcope-cli -n __fish_use_subcommand -f -l version -d 'Print the version'\n";
-  text += "complete -c episcope-cli -f -l help -s h -d 'Print help'\n";
-  for (const VerbPage& verb : verbs) {
-    const std::string is_verb = "__fish_seen_subcommand_from " + verb.name;
-    text += fmt::format("complete -c episcope-cli -n __fish_use_subcommand -f -a {} -d {}\n",
-                        verb.name, fish_quoted(verb.summary));
-    for (const OptionPage& option : verb.options) text += option_line(option, is_verb);
-    for (const MethodPage& method : verb.methods) {
-      text += fmt::format("complete -c episcope-cli -n {} -f -a {} -d {}\n",
-                          fish_quoted(is_verb + "; and not __fish_seen_subcommand_from " +
-                                      joined(verb.methods, " ", &MethodPage::id)),
-                          method.id, fish_quoted(method.summary));
-      const std::string is_method = is_verb + "; and __fish_seen_subcommand_from " + method.id;
-      for (const OptionPage& option : method.parameters) text += option_line(option, is_method);
+/// Lines for a verb, or for a method of one, and for its options.
+std::string word_lines(const json& word, const std::string& condition, const std::string& chosen) {
+  const std::string name = text(word, "name");
+  std::string lines = fmt::format("complete -c episcope-cli -n {} -f -a {} -d {}\n",
+                                  fish_quoted(condition), name, fish_quoted(text(word, "summary")));
+  for (const json& option : word.at("options")) lines += option_line(option, chosen + name);
+  return lines;
+}
+
+std::string fish_completion(const std::vector<json>& verbs) {
+  std::string script =
+      "# fish completion for episcope-cli\n"
+      "complete -c episcope-cli -n __fish_use_subcommand -f -l version -d 'Print the version'\n"
+      "complete -c episcope-cli -f -l help -s h -d 'Print help'\n";
+  const std::string seen = "__fish_seen_subcommand_from ";
+  for (const json& verb : verbs) {
+    script += word_lines(verb, "__fish_use_subcommand", seen);
+    const std::string is_verb = seen + text(verb, "name");
+    const json& methods = verb.at("methods");
+    for (const json& method : methods) {
+      script += word_lines(method, is_verb + "; and not " + seen + names(methods),
+                           is_verb + "; and " + seen);
     }
   }
-  return text;
+  return script;
 }
 
 /// Within single quotes, with what `_arguments` reads as its own escaped.
@@ -351,59 +319,50 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
-/// One line of `_arguments` for each name of the option.
-std::string option_lines(const OptionPage& option, const std::string& indent) {
-  std::string action;
-  if (!option.value.empty()) {
-    const std::string words = joined(option.choices, " ");
-    action = fmt::format(":{}:{}", escaped(option.value),
-                         words.empty() ? "_files" : fmt::format("({})", words));
+/// One line of `_arguments` for each name of an option.
+std::string option_lines(const json& options, const std::string& indent) {
+  std::string lines;
+  for (const json& option : options) {
+    const std::string value = text(option, "value"), choices = words(option.at("choices"), " ");
+    const std::string action = choices.empty() ? "_files" : "(" + choices + ")";
+    for (const std::string name : option.at("names")) {
+      lines += fmt::format("{}'({}){}[{}]{}'\n", indent, words(option.at("names"), " "), name,
+                           escaped(text(option, "help")),
+                           value.empty() ? "" : fmt::format(":{}:{}", escaped(value), action));
+    }
   }
-  std::string text;
-  for (const std::string& name : option.names) {
-    text += fmt::format("{}'({}){}[{}]{}'\n", indent, joined(option.names, " "), name,
-                        escaped(option.help), action);
-  }
-  return text;
+  return lines;
 }
 
-std::string positional_lines(const VerbPage& verb) {
-  std::string text;
-  for (std::size_t i = 0; i < verb.positionals.size(); ++i) {
-    const PositionalPage& each = verb.positionals[i];
-    const std::string ids = i == 0 ? joined(verb.methods, " ", &MethodPage::id) : "";
-    const std::string action = ids.empty() ? "_files" : fmt::format("({})", ids);
-    text += fmt::format("        '{}:{}:{}'\n", each.several ? "*" : std::to_string(i + 1),
-                        escaped(each.name), action);
+std::string verb_branch(const json& verb) {
+  const json& methods = verb.at("methods");
+  std::string branch =
+      fmt::format("    {})\n      options=(\n        '(-h --help)'{{-h,--help}}'[Print help]'\n{}",
+                  text(verb, "name"), option_lines(verb.at("options"), "        "));
+  int number = 0;
+  for (const json& each : verb.at("positionals")) {
+    const bool is_method = ++number == 1 && !methods.empty();
+    branch +=
+        fmt::format("        '{}:{}:{}'\n", each.at("several") ? "*" : std::to_string(number),
+                    escaped(text(each, "name")), is_method ? "(" + names(methods) + ")" : "_files");
   }
-  return text;
+  branch += methods.empty() ? "      )\n" : "      )\n      case $words[2] in\n";
+  for (const json& method : methods) {
+    branch += fmt::format("        {})\n          options+=(\n{}          )\n          ;;\n",
+                          text(method, "name"), option_lines(method.at("options"), "            "));
+  }
+  return branch + (methods.empty() ? "      ;;\n" : "      esac\n      ;;\n");
 }
 
-std::string verb_branch(const VerbPage& verb) {
-  std::string text = fmt::format("    {})\n      options=(\n", verb.name);
-  text += "        '(-h --help)'{-h,--help}'[Print help]'\n";
-  for (const OptionPage& option : verb.options) text += option_lines(option, "        ");
-  text += positional_lines(verb) + "      )\n";
-  if (!verb.methods.empty()) text += "      case $words[2] in\n";
-  for (const MethodPage& method : verb.methods) {
-    text += fmt::format("        {})\n          options+=(\n", method.id);
-    for (const OptionPage& option : method.parameters) text += option_lines(option, "            ");
-    text += "          )\n          ;;\n";
+std::string zsh_completion(const std::vector<json>& verbs) {
+  std::string script =
+      "#compdef episcope-cli\n\nlocal -a verbs options\nif ((CURRENT == 2)); then\n  verbs=(\n";
+  for (const json& verb : verbs) {
+    script += fmt::format("    '{}:{}'\n", text(verb, "name"), escaped(text(verb, "summary")));
   }
-  if (!verb.methods.empty()) text += "      esac\n";
-  return text + "      ;;\n";
-}
-
-std::string zsh_completion(const std::vector<VerbPage>& verbs) {
-  std::string text = "#compdef episcope-cli\n\nlocal -a verbs options\n";
-  text += "if ((CURRENT == 2)); then\n  verbs=(\n";
-  for (const VerbPage& verb : verbs) {
-    text += fmt::format("    '{}:{}'\n", verb.name, escaped(verb.summary));
-  }
-  text +=
+  script +=
       "  )\n  _describe verb verbs\nelse\n  shift words\n  ((CURRENT--))\n  case $words[1] in\n";
-  for (const VerbPage& verb : verbs) text += verb_branch(verb);
-  return text + "  esac\n  _arguments -s $options\nfi\n";
+  return script + joined(verbs, "", verb_branch) + "  esac\n  _arguments -s $options\nfi\n";
 }
 
 void write(const std::filesystem::path& path, const std::string& text) {
@@ -428,10 +387,10 @@ int main(int argc, char** argv) {
   try {
     if (argc < 2 || argc > 3) throw std::runtime_error("usage: episcope_pages DIR [HELP]");
     const std::filesystem::path folder = argv[1];
-    const std::vector<VerbPage> verbs = verb_pages();
+    const std::vector<nlohmann::json> verbs = verb_pages();
     write(folder / "man/episcope-cli.1", program_man_page(verbs));
-    for (const VerbPage& verb : verbs) {
-      write(folder / ("man/episcope-cli-" + verb.name + ".1"), verb_man_page(verb));
+    for (const nlohmann::json& verb : verbs) {
+      write(folder / ("man/episcope-cli-" + text(verb, "name") + ".1"), verb_man_page(verb));
     }
     if (argc == 3) write(folder / "man/episcope.1", window_man_page(text_of(argv[2])));
     write(folder / "bash/episcope-cli", bash_completion(verbs));

@@ -5,6 +5,7 @@
 #include "app/cli/streams.h"
 #include "app/cli/verbs/verbs.h"
 #include "app/session/capture_work.h"
+#include "app/session/load_scene.h"
 #include "engine/capture/mesh_file.h"
 #include "engine/capture/solve_pose.h"
 #include "engine/capture/view_surface.h"
@@ -368,14 +369,6 @@ void note_contradictions(const Scene& scene, Job& job) {
   for (const std::string& warning : found.warnings) job.note(warning);
 }
 
-LightFieldPtr with_step(const LightFieldPtr& field, double step) {
-  LightFieldInfo info = field->info();
-  info.camera.baseline = step;
-  auto samples = std::visit([](const auto& stack) -> LightField::Samples { return stack.clone(); },
-                            field->samples());
-  return std::make_shared<LightField>(std::move(samples), std::move(info), field->valid().clone());
-}
-
 void print(const GroundTruthRequest& request, const Scene& scene,
            const std::filesystem::path& labels, const Job& job) {
   const GroundTruth& truth = *scene.truth;
@@ -420,7 +413,11 @@ void run_ground_truth(const VerbArguments& arguments, std::stop_token stop) {
   Job job(std::move(stop), request.job);
   Scene scene = load_input(request.input, request.read, job.progress().part(0, 0.05));
   for (const auto& warning : scene.convention.warnings) job.note(warning);
-  if (request.step) scene.light_field = with_step(scene.light_field, *request.step);
+  if (request.step) {
+    LightFieldInfo info = scene.light_field->info();
+    info.camera.baseline = *request.step;
+    scene.light_field = with_info(*scene.light_field, std::move(info));
+  }
   scene.truth = std::make_shared<GroundTruth>(truth_of(request, scene, job));
   note_contradictions(scene, job);
   const std::filesystem::path labels = io::labels_place(request.output, scene);

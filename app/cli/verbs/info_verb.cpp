@@ -287,12 +287,12 @@ void add_project_scene(const ProjectScene& scene, bool is_shown, FileInfo& info)
       fmt::format("{}, {}{}{}{}", scene.name, scene.input, reading_options_text(scene.reading),
                   gone(has_source), has_strokes ? ", with strokes" : ""));
   Json results = Json::array();
-  for (const ProjectResult& result : scene.results) {
-    const bool exists = io::is_there(result.file);
+  for (const EstimateEntry& result : scene.estimates) {
+    const bool exists = io::is_there(result.kept);
     results.push_back(
-        Json::object({{"name", result.name}, {"file", result.file.string()}, {"exists", exists}}));
+        Json::object({{"name", result.name}, {"file", result.kept.string()}, {"exists", exists}}));
     info.lines.emplace_back("  result",
-                            result.name + ", " + result.file.filename().string() + gone(exists));
+                            result.name + ", " + result.kept.filename().string() + gone(exists));
   }
   info.json["scenes"].push_back(Json::object({{"name", scene.name},
                                               {"source", scene.input},

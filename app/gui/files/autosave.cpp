@@ -15,6 +15,7 @@
 #include "widgets/controls/text.h"
 
 #include <algorithm>
+#include <functional>
 
 namespace episcope {
 namespace {
@@ -27,14 +28,14 @@ constexpr int kLater_ms = 500;  // what changes with every movement of the hand
 bool is_worth_keeping(const Project& project) {
   return project.scenes.size() > 1 || !project.sweeps.empty() ||
          std::ranges::any_of(project.scenes, [](const ProjectScene& scene) {
-           return !scene.results.empty() || scene.labels.is_worth_keeping() ||
-                  has_work(scene.place);
+           return !scene.estimates.empty() || !scene.unread.empty() ||
+                  scene.labels.is_worth_keeping() || has_work(scene.place);
          });
 }
 
 Project written_part(Project project) {
   for (ProjectScene& scene : project.scenes) {
-    std::erase_if(scene.results, [](const ProjectResult& each) { return !is_in_file(each); });
+    std::erase_if(scene.estimates, std::not_fn(is_in_file));
   }
   return project;
 }
@@ -110,10 +111,10 @@ void Autosave::write_all(Project project, const fs::path& file, Kept& kept,
   write_project(file, written_part(project));  // results may take long
   const fs::path folder = file.parent_path();
   for (ProjectScene& scene : project.scenes) {
-    for (ProjectResult& result : scene.results) {
+    for (EstimateEntry& result : scene.estimates) {
       if (is_in_file(result)) continue;
-      result.file = store_result(folder, scene.name, result, scene.input, progress);
-      kept.results.emplace_back(result.id, result.file);
+      result.kept = store_result(folder, scene, result, progress);
+      kept.results.emplace_back(result.id, result.kept);
       write_project(file, written_part(project));
     }
   }
@@ -162,7 +163,7 @@ namespace {
 
 std::size_t result_count(const Project& project) {
   std::size_t count = 0;
-  for (const ProjectScene& scene : project.scenes) count += scene.results.size();
+  for (const ProjectScene& scene : project.scenes) count += scene.estimates.size();
   return count;
 }
 

@@ -195,9 +195,12 @@ void ProjectController::noteSaved(const QString& path, const Project& written) {
     bench_.session.set_labels_file(scene.id, scene.labels.labeling, scene.labels.file);
     bench_.session.mark_labels_saved(scene.id, scene.labels.labeling);
     bench_.session.set_unread_strokes(scene.id, scene.unread_strokes);
-    for (const ProjectResult& result : scene.results) {
-      bench_.session.set_kept(result.id, result.file);
+    for (const EstimateEntry& result : scene.estimates) {
+      bench_.session.set_kept(result.id, result.kept);
       bench_.session.mark_saved(result.id);
+    }
+    for (const EstimateEntry& result : scene.unread) {
+      bench_.session.set_kept(result.id, result.kept);
     }
   }
   for (const Sweep& sweep : written.sweeps) bench_.scenes.sweeps().mark_saved(sweep);

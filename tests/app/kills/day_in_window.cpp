@@ -132,8 +132,8 @@ class Day {
     std::string problem;
     try {
       for (const ProjectScene& scene : read_project(file).scenes) {
-        for (const ProjectResult& each : scene.results) {
-          if (!fs::exists(each.file)) problem = each.file.string() + " is not there";
+        for (const EstimateEntry& each : scene.estimates) {
+          if (!fs::exists(each.kept)) problem = each.kept.string() + " is not there";
         }
         if (!scene.strokes.empty()) (void)read_journal(scene.strokes);
       }

@@ -48,17 +48,6 @@ class SlurmWordsTest : public QObject {
     QCOMPARE(arrays[2].indices, std::string("0-499"));
     QVERIFY(job_arrays({}).empty());
   }
-
-  void programs_answerOnBothOutputs() {
-    const ProgramAnswer answer =
-        run_program("sh", {"-c", "seq 20000; seq 20000 >&2; echo \"$1\"; exit 3", "sh", "a  b"});
-
-    QCOMPARE(answer.exit_code, 3);
-    QVERIFY(answer.out.ends_with("20000\na  b\n"));
-    QVERIFY(answer.err.ends_with("20000\n"));
-    QCOMPARE(run_program("sh", {"-c", "kill -9 $$"}).exit_code, 137);
-    QVERIFY_THROWS_EXCEPTION(Unavailable, (void)run_program("no-such-program", {}));
-  }
 };
 
 }  // namespace episcope::in_slurm_words_test

@@ -199,7 +199,7 @@ expect("submit" 0 OUT "^2 of 2 tasks submitted as job 7; job 7 then makes the ta
        --slurm "--partition=gpu --time=1:00:00 --comment='two words'")
 file(READ "${WORK}/words" words)
 foreach(word "--array=0-1\n" "\n--partition=gpu\n--time=1:00:00\n--comment=two words\n"
-        "--point .*SLURM_ARRAY_TASK_ID" "--dependency=afterany:7\n" "'${WORK}/changed' .*--collect\n")
+        "--point .*SLURM_ARRAY_TASK_ID" "--dependency=afterany:7\n" "${WORK}/changed .*--collect\n")
   if(NOT words MATCHES "${word}")
     fail_case("sbatch was not told '${word}':\n${words}")
   endif()

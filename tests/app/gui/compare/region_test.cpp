@@ -210,7 +210,7 @@ void RegionTest::part_comesBackWithTheProject() {
   QTRY_COMPARE_WITH_TIMEOUT(f.summary(), QString("10 px"), kPatience);
   const std::string path = f.path("work.episcope").toStdString();
   Project project = project_of(f.session());
-  for (ProjectScene& scene : project.scenes) scene.results.clear();  // no file keeps them
+  for (ProjectScene& scene : project.scenes) scene.estimates.clear();  // no file keeps them
   write_project(path, project);
 
   WindowFixture g;

@@ -219,7 +219,7 @@ void KeptResultsTest::saveAll_writesThemAndGoesOn() {
   const Project project = read_project(f.path("work.episcope").toStdString());
   QCOMPARE(project.scenes.size(), 1U);
   const LightField& light_field = *f.session().light_field();
-  const Estimate read = io::read_result(project.scenes[0].results.at(0).file, light_field.grid(),
+  const Estimate read = io::read_result(project.scenes[0].estimates.at(0).kept, light_field.grid(),
                                         light_field.info().name);
   QCOMPARE(read.method, estimate->method);
 }

@@ -192,7 +192,7 @@ void SavedProjectTest::savedProject_canBeMoved() {
   QVERIFY(QDir().rename(f.path("here"), f.path("there")));
   const Project project = read_project(f.path("there/work.episcope").toStdString());
 
-  QVERIFY(std::filesystem::exists(project.scenes.at(0).results.at(0).file));
+  QVERIFY(std::filesystem::exists(project.scenes.at(0).estimates.at(0).kept));
   QVERIFY(std::filesystem::exists(project.scenes.at(0).input));
 }
 

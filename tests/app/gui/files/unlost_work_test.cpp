@@ -99,7 +99,7 @@ void UnlostWorkTest::whatDoesNotFit_staysInTheProject() {
   QCOMPARE(files_of(path, ".h5").size(), 1);
   QCOMPARE(files_of(path, ".strokes").size(), 1);
   const Project kept = read_project(path.toStdString());
-  QCOMPARE(kept.scenes.at(0).results.size(), 1U);
+  QCOMPARE(kept.scenes.at(0).estimates.size(), 1U);
   QVERIFY(std::filesystem::exists(kept.scenes[0].strokes));
   const QString copy = f.path("copy.episcope");
   f.saveAs(copy);
@@ -220,7 +220,7 @@ void UnlostWorkTest::mapThatWasOpened_isAFileAlready() {
   const auto left = project_of(f.session());
   QVERIFY(scene_of(left.scenes.at(0), false).estimates.at(0).is_saved);
   f.saveAs(f.path("work.episcope"));
-  QVERIFY(read_project(f.path("work.episcope").toStdString()).scenes.at(0).results.at(0).is_saved);
+  QVERIFY(read_project(f.path("work.episcope").toStdString()).scenes.at(0).estimates.at(0).is_saved);
 }
 
 }  // namespace episcope::in_unlost_work_test

@@ -34,12 +34,14 @@ Project sample(const std::filesystem::path& folder) {
       {.name = "scan",
        .mesh = (folder / "data/scan.ply").string(),
        .pairs = {{"p1", 1.5, 2.25, {1, 2, -3}}, {"p2", 7, 8, {0.5, 0, 4}, true}}}};
-  scene.results = {{.name = "mine",
-                    .file = folder / "work_files/a.h5",
-                    .display_range = {-1, 2},
-                    .is_shown = true,
-                    .note = "too smooth\nat “edges”",
-                    .foreign_file = "/elsewhere/map.pfm"}};
+  scene.estimates = {{.id = 5,
+                      .name = "mine",
+                      .estimate = nullptr,
+                      .display_range = {-1, 2},
+                      .kept = folder / "work_files/a.h5",
+                      .note = "too smooth\nat “edges”",
+                      .foreign_file = "/elsewhere/map.pfm"}};
+  scene.shown = 5;
   scene.strokes = folder / "work_files/edge.strokes";
   scene.labels.file = folder / "work_files/edge_labels.h5";
   scene.labels.strokes = 0x123456789abcdef0;
@@ -109,12 +111,12 @@ void ProjectFileTest::project_readsBack() {
   QVERIFY(scene.strokes == before.strokes);
   QVERIFY(scene.labels.file == before.labels.file);
   QCOMPARE(scene.labels.strokes, before.labels.strokes);
-  QCOMPARE(scene.results.at(0).name, std::string("mine"));
-  QCOMPARE(scene.results[0].note, before.results[0].note);
-  QCOMPARE(scene.results[0].foreign_file, before.results[0].foreign_file);
-  QVERIFY(scene.results[0].file == before.results[0].file);
-  QCOMPARE(scene.results[0].display_range, (Interval{-1, 2}));
-  QVERIFY(scene.results[0].is_shown && !scene.results[0].is_compared);
+  QCOMPARE(scene.estimates.at(0).name, std::string("mine"));
+  QCOMPARE(scene.estimates[0].note, before.estimates[0].note);
+  QCOMPARE(scene.estimates[0].foreign_file, before.estimates[0].foreign_file);
+  QVERIFY(scene.estimates[0].kept == before.estimates[0].kept);
+  QCOMPARE(scene.estimates[0].display_range, (Interval{-1, 2}));
+  QVERIFY(scene.shown == scene.estimates[0].id && scene.compared == 0);
   QCOMPARE(read.scenes[1].input, std::string("demo"));
   QVERIFY(!read.scenes[1].place.quantity);
 }
@@ -171,7 +173,7 @@ void ProjectFileTest::paths_moveWithTheFile() {
   const Project read = read_project(root / "there/work.episcope");
 
   QCOMPARE(read.scenes[0].input, (root / "there/data/edge/lf.h5").string());
-  QVERIFY(read.scenes[0].results[0].file == root / "there/work_files/a.h5");
+  QVERIFY(read.scenes[0].estimates[0].kept == root / "there/work_files/a.h5");
 }
 
 // However short: one sentence that names the file, never half a project.
@@ -220,7 +222,7 @@ void ProjectFileTest::filesElsewhere_areRefused() {
   const std::filesystem::path root = folder.path().toStdString();
   Project project = sample(root);
   ProjectScene& scene = project.scenes[0];
-  std::filesystem::path& file = part == "result"    ? scene.results[0].file
+  std::filesystem::path& file = part == "result"    ? scene.estimates[0].kept
                                 : part == "strokes" ? scene.strokes
                                                     : scene.labels.file;
   file = root.parent_path() / "secret";
@@ -271,7 +273,7 @@ void ProjectFileTest::linkedFolderOfFiles_isTheProjectsOwn() {
 
   const Project read = read_project(root / "here/work.episcope");
 
-  QVERIFY(std::filesystem::weakly_canonical(read.scenes[0].results[0].file) ==
+  QVERIFY(std::filesystem::weakly_canonical(read.scenes[0].estimates[0].kept) ==
           std::filesystem::weakly_canonical(root / "disk/a.h5"));
 }
 

@@ -91,9 +91,9 @@ void LoadSceneTest::keptScene_readsBackTheSame() {
   const SceneCache cache(path_of(folder));
   const auto scene = tiny_scene();
 
-  QVERIFY(!cache.read("edge", tiny_options(), Progress()));
+  QVERIFY(!cache.read("edge", tiny_options(), true, Progress()));
   QVERIFY(cache.write("edge", tiny_options(), *scene, Progress()));
-  const auto read = cache.read("edge", tiny_options(), Progress());
+  const auto read = cache.read("edge", tiny_options(), true, Progress());
 
   QVERIFY(read.has_value());
   QCOMPARE(read->light_field->sample_hash(), scene->light_field->sample_hash());
@@ -115,7 +115,7 @@ void LoadSceneTest::damagedScene_isNotRead() {
 
   QVERIFY(file.resize(file.size() / 2));
 
-  QVERIFY(!cache.read("edge", tiny_options(), Progress()));
+  QVERIFY(!cache.read("edge", tiny_options(), true, Progress()));
   QVERIFY(!file.exists());
 }
 
@@ -128,7 +128,7 @@ void LoadSceneTest::damagedScene_isReplaced() {
 
   QVERIFY(cache.write("edge", tiny_options(), *tiny_scene(), Progress()));
 
-  QVERIFY(cache.read("edge", tiny_options(), Progress()).has_value());
+  QVERIFY(cache.read("edge", tiny_options(), true, Progress()).has_value());
 }
 
 void LoadSceneTest::unwritableFolder_keepsNothing() {
@@ -139,7 +139,7 @@ void LoadSceneTest::unwritableFolder_keepsNothing() {
   const SceneCache cache(not_a_folder);
 
   QVERIFY(!cache.write("edge", tiny_options(), *tiny_scene(), Progress()));
-  QVERIFY(!cache.read("edge", tiny_options(), Progress()));
+  QVERIFY(!cache.read("edge", tiny_options(), true, Progress()));
   QVERIFY(!SceneCache("").write("edge", tiny_options(), *tiny_scene(), Progress()));
 }
 
