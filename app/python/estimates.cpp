@@ -23,6 +23,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -158,63 +159,25 @@ std::pair<EstimatePtr, ViewIndex> judged_estimate(const py::object& map, const S
   return {read, view};
 }
 
-py::dict scores_of(const Estimate& estimate, const Evaluation& evaluation, Protocol protocol,
-                   bool has_all_views) {
-  py::dict scores;
-  scores["protocol"] = protocol_name(protocol);
-  scores["method"] = estimate.method;
-  for (const auto& [key, value] : evaluation.metrics) scores[py::str(key)] = value;
-  if (estimate.seconds > 0) {
-    scores["seconds"] = estimate.seconds;
-    if (protocol == Protocol::Vmv2013) scores["runtime_class"] = runtime_class(estimate.seconds);
-  }
-  scores["all_views"] = has_all_views;
-  if (!evaluation.notes.empty()) scores["notes"] = evaluation.notes;
-  return scores;
-}
-
-/// Says how the result fits, before what the evaluation says.
-void add_fit(const ResultFit& fit, Evaluation& evaluation) {
-  const std::vector<std::string> notes = fit.sentences(better_reading_finding);
-  evaluation.notes.insert(evaluation.notes.begin(), notes.begin(), notes.end());
-}
-
-void add_better_reading(const ResultFit& fit, py::dict& scores) {
-  if (fit.better) scores["better_reading"] = object_from(better_reading_json(*fit.better));
-}
-
+/// Keys of 'episcope-cli evaluate --json'.
 py::dict score_scene(const py::object& map, const OpenedScene& opened, EvaluationOptions options,
                      const py::object& view, const io::MapReading& reading) {
-  const LightField& lf = opened.light_field();
+  const Scene& scene = *opened.scene;
   const auto [estimate, at] =
-      judged_estimate(map, *opened.scene, view_from(view, lf.grid()), reading);
-  ResultFit fit;
-  Evaluation evaluation = result_of_job(py::none(), 0, [&](const Progress& job) {
+      judged_estimate(map, scene, view_from(view, scene.light_field->grid()), reading);
+  const JudgedResult judged = result_of_job(py::none(), 0, [&](const Progress& job) {
     options.progress = job;
-    Evaluation judged = judge(*estimate, *opened.scene, options, at);
-    fit = fit_of(*estimate, *opened.scene);
-    add_fit(fit, judged);
-    for (std::string& warning : truth_warnings(opened.scene->convention)) {
-      judged.notes.push_back(std::move(warning));
-    }
-    return judged;
+    return judge_result(*estimate, scene, options, at);
   });
-  const bool has_all_views = estimate->field.disparity.grid() == lf.grid();
-  py::dict scores = scores_of(*estimate, evaluation, options.protocol, has_all_views);
-  add_better_reading(fit, scores);
-  scores["truth"] = opened.input;
-  if (const auto& units = opened.scene->convention.units; !units.empty()) {
-    scores["truth_units"] = units;
+  py::dict scores = object_from(
+      judged_json(*estimate, scene, judged, options.protocol, judged.evaluation->metrics));
+  if (scores.contains("notes")) {
+    scores["notes"] = in_python(py::cast<std::vector<std::string>>(scores["notes"]));
   }
+  scores["protocol"] = protocol_name(options.protocol);
+  scores["truth"] = opened.input;
   scores["view"] = view_tuple(at);
   return scores;
-}
-
-DisparityField field_from(const py::object& map, GridShape grid, const std::string& what) {
-  DisparityField field;
-  field.disparity = maps_from(numbers_from<float>(map, what), grid, what);
-  io::mark_invalid(field);
-  return field;
 }
 
 /// The views that maps cover; 1×1 also for what are no maps.
@@ -234,33 +197,26 @@ ViewIndex view_to_score(const py::object& judged, const py::object& view, GridSh
   return own.is_none() || grid.count() == 1 ? grid.center() : *view_from(own, grid);
 }
 
-/// A map alone, beside a light field of one empty view that has the truth.
-ResultFit fit_of_view(const DisparityView& map, const DisparityView& truth) {
-  const auto alone = [](const DisparityView& view) {
-    const int height = view.disparity.height, width = view.disparity.width;
-    DisparityField field{ViewStack<float>({1, 1}, height, width),
-                         ViewStack<std::uint8_t>({1, 1}, height, width)};
-    for (int y = 0; y < height; ++y) {
-      for (int x = 0; x < width; ++x) {
-        field.disparity.view({}).at(y, x) = view.disparity.at(y, x);
-        field.valid.view({}).at(y, x) = view.is_valid(y, x) ? 1 : 0;
-      }
-    }
-    return field;
-  };
-  ViewStack<std::uint8_t> samples({1, 1}, truth.disparity.height, truth.disparity.width);
+/// Of an array, with nothing known of the light field: pixel by pixel.
+OpenedScene scene_of_truth(const py::object& array, GridShape grid, ViewIndex judged) {
+  const std::string what = "the truth";
+  auto truth = std::make_shared<GroundTruth>();
+  DisparityField& field = truth->field;
+  field.disparity = maps_from(numbers_from<float>(array, what), grid, what);
+  if (field.disparity.grid().count() == 1) {
+    field.disparity.keep_in_place(field.disparity.first(), {1, 1}, judged);
+  }
+  io::mark_invalid(field);
+  ViewStack<std::uint8_t> samples(grid, field.disparity.height(), field.disparity.width());
   std::fill_n(samples.data(), samples.size(), std::uint8_t{0});
-  Scene scene;
-  scene.light_field = std::make_shared<const LightField>(std::move(samples), LightFieldInfo{});
-  auto known = std::make_shared<GroundTruth>();
-  known->field = alone(truth);
-  scene.truth = std::move(known);
-  Estimate estimate;
-  estimate.field = alone(map);
-  return fit_of(estimate, scene);
+  auto scene = std::make_shared<Scene>();
+  LightFieldInfo info;
+  info.name = what;
+  scene->light_field = std::make_shared<const LightField>(std::move(samples), std::move(info));
+  scene->truth = std::move(truth);
+  return {std::move(scene)};
 }
 
-/// Against an array: pixel by pixel, with nothing known of the light field.
 py::dict score_array(const py::object& judged, const py::object& truth,
                      const EvaluationOptions& options, const py::object& view,
                      const io::MapReading& reading) {
@@ -268,22 +224,7 @@ py::dict score_array(const py::object& judged, const py::object& truth,
   const GridShape of_truth = grid_of_maps(truth);
   const GridShape grid = of_truth.count() > 1 ? of_truth : grid_of_maps(map);
   const ViewIndex at = view_to_score(judged, view, grid);
-  const DisparityField known = field_from(truth, grid, "the truth");
-  Estimate estimate;
-  estimate.field = field_from(map, grid, "the maps");
-  estimate.method = "array";
-  io::apply_reading(reading, nullptr, estimate);
-  const auto view_in = [at](const DisparityField& field) {
-    return field.view(field.disparity.grid().count() == 1 ? field.disparity.first() : at);
-  };
-  const DisparityView one = view_in(estimate.field), true_one = view_in(known);
-  Evaluation evaluation = evaluate(one, true_one, {}, options);
-  const ResultFit fit = fit_of_view(one, true_one);
-  add_fit(fit, evaluation);
-  py::dict scores =
-      scores_of(estimate, evaluation, options.protocol, estimate.field.disparity.grid() == grid);
-  add_better_reading(fit, scores);
-  return scores;
+  return score_scene(map, scene_of_truth(truth, grid, at), options, view_tuple(at), reading);
 }
 
 /// Throws InvalidInput that says what there is.
@@ -376,7 +317,7 @@ void add_record(ResultClass& result) {
           "seconds", [](const FoundEstimate& found) { return found.estimate->seconds; },
           "Wall-clock time.")
       .def_property_readonly(
-          "notes", [](const FoundEstimate& found) { return found.estimate->notes; },
+          "notes", [](const FoundEstimate& found) { return in_python(found.estimate->notes); },
           "What one should know of this run, a sentence each.");
 }
 

@@ -131,8 +131,7 @@ ScoredLabels label_scene(const Scene& scene, const Scribbles& scribbles,
                                 progress.part(0.95, 1));
   found.notes = stroke_notes(scribbles, scene.truth->labels);
   if (given) {
-    std::ranges::move(fit_of(*given, scene).sentences(better_reading_finding),
-                      std::back_inserter(found.notes));
+    std::ranges::move(fit_of(*given, scene).sentences(), std::back_inserter(found.notes));
   }
   found.notes.push_back(other_numbers_text(found.scores));
   found.notes.push_back(found.segmentation.labeling->note);
@@ -212,7 +211,8 @@ void add_labels(py::module_& module) {
                              R"(Shares in [0, 1] by the keys of 'episcope-cli label --json', such as
 accuracy_all_views; without true labels only consistency along the rays.)")
       .def_property_readonly(
-          "notes", [](const FoundLabels& found) { return found.notes; }, "A sentence each.")
+          "notes", [](const FoundLabels& found) { return in_python(found.notes); },
+          "A sentence each.")
       .def("save", save_labels, py::arg("path"), py::kw_only(), py::arg("probabilities") = false,
            py::arg("overwrite") = false,
            R"(save(path, *, probabilities=False, overwrite=False)

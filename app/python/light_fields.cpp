@@ -21,8 +21,10 @@
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
 #include <limits>
 #include <map>
+#include <regex>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -31,9 +33,8 @@ namespace episcope::python {
 
 std::vector<std::string> OpenedScene::notes() const {
   std::vector<std::string> notes = scene->convention.warnings;
-  const std::vector<std::string> more = order_warnings(scene->convention);
-  notes.insert(notes.end(), more.begin(), more.end());
-  return notes;
+  std::ranges::move(order_warnings(scene->convention), std::back_inserter(notes));
+  return in_python(std::move(notes));
 }
 
 namespace {
@@ -561,6 +562,25 @@ ParameterSet parameters_from(const py::kwargs& given,
     if (!value.is_none()) values.emplace_back(description.key, value_from(value, description));
   }
   return values;
+}
+
+std::string in_python(const std::string& sentence) {
+  static const std::regex option("--([a-z][a-z-]*[a-z])");
+  std::string text;
+  std::size_t end = 0;
+  for (std::sregex_iterator match(sentence.begin(), sentence.end(), option), last; match != last;
+       ++match) {
+    std::string name = (*match)[1];
+    std::ranges::replace(name, '-', '_');
+    text += sentence.substr(end, static_cast<std::size_t>(match->position()) - end) + name;
+    end = static_cast<std::size_t>(match->position() + match->length());
+  }
+  return text + sentence.substr(end);
+}
+
+std::vector<std::string> in_python(std::vector<std::string> sentences) {
+  for (std::string& sentence : sentences) sentence = in_python(sentence);
+  return sentences;
 }
 
 py::object object_from(const nlohmann::ordered_json& json) {

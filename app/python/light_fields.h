@@ -63,6 +63,11 @@ template <class T>
 [[nodiscard]] ParameterSet parameters_from(const py::kwargs& given,
                                            const std::vector<ParameterDescription>& described);
 
+/// A sentence of the command line with arguments of Python in the place of options: map_scale=2 for
+/// --map-scale=2.
+[[nodiscard]] std::string in_python(const std::string& sentence);
+[[nodiscard]] std::vector<std::string> in_python(std::vector<std::string> sentences);
+
 /// Lists, dicts, numbers and texts.
 [[nodiscard]] py::object object_from(const nlohmann::ordered_json& json);
 

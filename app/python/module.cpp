@@ -43,7 +43,7 @@ void add_exceptions(py::module_& module) {
 
 void set_error(const char* name, const Error& error) {
   const py::object type = py::module_::import("episcope._episcope").attr(name);
-  PyErr_SetString(type.ptr(), error.what());
+  PyErr_SetString(type.ptr(), in_python(error.what()).c_str());
 }
 
 void translate(std::exception_ptr failure) {

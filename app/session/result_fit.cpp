@@ -170,6 +170,9 @@ std::string better_reading_text(const io::BetterReading& found) {
   return better_reading_finding(found) + remedy + map_options_text(found.reading);
 }
 
+namespace {
+
+/// Both numbers, as read and by the options that would fit better.
 nlohmann::ordered_json better_reading_json(const io::BetterReading& found) {
   nlohmann::ordered_json json;
   json["options"] = map_options_text(found.reading).substr(1);
@@ -183,8 +186,6 @@ nlohmann::ordered_json better_reading_json(const io::BetterReading& found) {
   add("grey_levels_as_read", found.as_read.grey_levels);
   return json;
 }
-
-namespace {
 
 /// Map − truth where both hold values.
 std::vector<double> differences_of(const DisparityView& map, const DisparityView& truth) {
@@ -304,10 +305,9 @@ bool is_ground_truth(const Estimate& estimate, const Scene& scene) {
          mse_100(estimate.field.view(*view), scene.truth->field.view(*view)) == 0;
 }
 
-std::vector<std::string> ResultFit::sentences(
-    std::string (*describe)(const io::BetterReading&)) const {
+std::vector<std::string> ResultFit::sentences() const {
   std::vector<std::string> all = notes;
-  if (better) all.push_back(describe(*better));
+  if (better) all.push_back(better_reading_text(*better));
   return all;
 }
 
@@ -331,6 +331,37 @@ std::vector<std::string> truth_warnings(const ConventionReport& report) {
              finding->code.starts_with("depth."));
   });
   return warnings;
+}
+
+JudgedResult judge_result(const Estimate& estimate, const Scene& scene,
+                          const EvaluationOptions& options, ViewIndex view) {
+  JudgedResult judged{
+      std::make_shared<const Evaluation>(judge(estimate, scene, options, view)), view, {}, {}};
+  const ResultFit fit = fit_of(estimate, scene);
+  judged.better = fit.better;
+  judged.notes = fit.sentences();
+  std::ranges::copy(judged.evaluation->notes, std::back_inserter(judged.notes));
+  return judged;
+}
+
+nlohmann::ordered_json judged_json(const Estimate& estimate, const Scene& scene,
+                                   const JudgedResult& judged, Protocol protocol,
+                                   const Metrics& metrics) {
+  nlohmann::ordered_json json{{"method", estimate.method}};
+  const std::string& units = scene.convention.units;
+  if (!units.empty()) json["truth_units"] = units;
+  json["view"] = {judged.view.v, judged.view.u};
+  for (const auto& [key, value] : metrics) json[key] = value;
+  if (estimate.seconds > 0) {
+    json["seconds"] = estimate.seconds;
+    if (protocol == Protocol::Vmv2013) json["runtime_class"] = runtime_class(estimate.seconds);
+  }
+  json["all_views"] = estimate.field.disparity.grid() == scene.light_field->grid();
+  if (judged.better) json["better_reading"] = better_reading_json(*judged.better);
+  std::vector<std::string> notes = judged.notes;
+  std::ranges::move(truth_warnings(scene.convention), std::back_inserter(notes));
+  if (!notes.empty()) json["notes"] = notes;
+  return json;
 }
 
 }  // namespace episcope

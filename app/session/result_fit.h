@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "app/session/judge.h"
 #include "engine/core/estimate.h"
 #include "engine/core/light_field.h"
 #include "engine/core/scene.h"
@@ -59,9 +60,6 @@ void check_fits(const ViewStack<std::int32_t>& labels, const LightField& light_f
 /// The same with the options that apply it: "…; if it is stored so, add --map-transpose".
 [[nodiscard]] std::string better_reading_text(const io::BetterReading& found);
 
-/// Both numbers, as read and by the options that would fit better, as programs read them.
-[[nodiscard]] nlohmann::ordered_json better_reading_json(const io::BetterReading& found);
-
 /// Whether a map of another program is the ground truth itself, number for number.
 [[nodiscard]] bool is_ground_truth(const Estimate& estimate, const Scene& scene);
 
@@ -79,13 +77,29 @@ struct ResultFit {
   std::vector<std::string> notes;
 
   /// All of it, a sentence each.
-  [[nodiscard]] std::vector<std::string> sentences(
-      std::string (*describe)(const io::BetterReading&) = better_reading_text) const;
+  [[nodiscard]] std::vector<std::string> sentences() const;
 };
 /// Precondition: the result fits (check_fits).
 [[nodiscard]] ResultFit fit_of(const Estimate& estimate, const Scene& scene);
 
 /// The warnings of a scene that tell of the truth by which results are judged.
 [[nodiscard]] std::vector<std::string> truth_warnings(const ConventionReport& report);
+
+/// A result judged in one view.
+struct JudgedResult {
+  EvaluationPtr evaluation;
+  ViewIndex view;
+  std::optional<io::BetterReading> better;
+  std::vector<std::string> notes;  ///< How it fits (fit_of), then of the evaluation.
+};
+/// Judges (`judge`) a result that fits. Throws likewise.
+[[nodiscard]] JudgedResult judge_result(const Estimate& estimate, const Scene& scene,
+                                        const EvaluationOptions& options, ViewIndex view);
+/// What programs are told of it: method, view, units of the truth, `metrics`, seconds, another
+/// reading that would fit better, and notes, those on the truth among them. What is not known has
+/// no key.
+[[nodiscard]] nlohmann::ordered_json judged_json(const Estimate& estimate, const Scene& scene,
+                                                 const JudgedResult& judged, Protocol protocol,
+                                                 const Metrics& metrics);
 
 }  // namespace episcope

@@ -211,37 +211,12 @@ struct EvaluateRequest {
   ReadOptions read;
 };
 
-/// One judged result.
-struct Row {
-  std::string file;
-  std::string truth;
-  std::string truth_units;  ///< What its numbers were taken for.
-  std::string method;
-  double seconds = 0;
-  bool has_all_views = false;
-  ViewIndex view;
-  Metrics metrics;
-  std::vector<std::string> notes;
-  std::optional<io::BetterReading> better;
-  std::string error_map{};  ///< The picture that was written; empty = none.
-};
-
-/// One of several results that could not be judged.
-struct FailedResult {
-  std::string file;
-  std::string truth;  ///< Empty if it is not known.
-  std::string error;
-};
-
+/// Answers in JSON, a result each.
 struct JudgedResults {
-  std::vector<Row> rows;
-  std::vector<FailedResult> failed;
+  std::vector<Json> rows;
+  std::vector<Json> failed;       ///< Of several: "file", "truth" if it is known, "error".
+  std::vector<std::string> keys;  ///< Of their metrics, in the order of their first appearance.
 };
-
-/// The 2013 paper ranks run times in classes.
-bool has_runtime_classes(const EvaluateRequest& request) {
-  return request.protocol == Protocol::Vmv2013;
-}
 
 void declare_judging(Arguments& parser, EvaluateRequest& request) {
   parser.option("--view", request.view, view_value(),
@@ -322,83 +297,54 @@ const char* missing_rule(InvalidEstimates invalid) {
                                           : "good, and left out of means";
 }
 
-Json row_json(const EvaluateRequest& request, const Row& row) {
-  Json result;
-  result["file"] = row.file;
-  result["method"] = row.method;
-  result["truth"] = row.truth;
-  if (!row.truth_units.empty()) result["truth_units"] = row.truth_units;
-  result["view"] = view_json(row.view);
-  for (const auto& [key, value] : row.metrics) result[key] = value;
-  if (row.seconds > 0) {
-    result["seconds"] = row.seconds;
-    if (has_runtime_classes(request)) result["runtime_class"] = runtime_class(row.seconds);
-  }
-  result["all_views"] = row.has_all_views;
-  if (row.better) result["better_reading"] = better_reading_json(*row.better);
-  if (!row.notes.empty()) result["notes"] = row.notes;
-  if (!row.error_map.empty()) result["error_map"] = row.error_map;
-  return result;
-}
-
 Json results_json(const EvaluateRequest& request, const JudgedResults& judged) {
   Json json;
   json["protocol"] = protocol_name(request.protocol);
   if (!request.truth.empty()) json["truth"] = request.truth;
   if (!judged.rows.empty()) {
-    if (request.truth.empty()) json["truth"] = judged.rows.front().truth;
-    json["view"] = view_json(judged.rows.front().view);
+    if (request.truth.empty()) json["truth"] = judged.rows.front()["truth"];
+    json["view"] = judged.rows.front()["view"];
   }
   json["missing_values"] = missing_rule(request.invalid);
-  json["results"] = Json::array();
-  for (const Row& row : judged.rows) json["results"].push_back(row_json(request, row));
-  for (const FailedResult& each : judged.failed) {
-    Json result{{"file", each.file}};
-    if (!each.truth.empty()) result["truth"] = each.truth;
-    result["error"] = each.error;
-    json["results"].push_back(result);
-  }
+  json["results"] = judged.rows;
+  for (const Json& each : judged.failed) json["results"].push_back(each);
   return json;
 }
 
+std::string text(const Json& row, const char* key) {
+  return row.at(key).get<std::string>();
+}
+
 /// Whether rows are of different light fields.
-bool has_several_truths(const std::vector<Row>& rows) {
-  return std::ranges::any_of(rows, [&](const Row& row) { return row.truth != rows.front().truth; });
+bool has_several_truths(const std::vector<Json>& rows) {
+  return std::ranges::any_of(
+      rows, [&](const Json& row) { return row["truth"] != rows.front()["truth"]; });
 }
 
-/// Keys of all rows, in the order of their first appearance.
-std::vector<std::string> metric_keys(const std::vector<Row>& rows) {
-  std::vector<std::string> keys;
-  for (const Row& row : rows) {
-    for (const auto& [key, value] : row.metrics) {
-      if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
-    }
-  }
-  return keys;
-}
-
-TextTable results_table(const EvaluateRequest& request, const std::vector<Row>& rows) {
+TextTable results_table(const EvaluateRequest& request, const JudgedResults& judged) {
   constexpr int exact_digits = 6;
   const int digits = request.format == Format::Csv ? exact_digits : 3;
-  const auto keys = metric_keys(rows);
-  const bool has_truths = has_several_truths(rows);
+  std::vector<std::string> keys = request.metrics.empty() ? judged.keys : request.metrics;
+  std::erase_if(keys, [&](const std::string& key) {
+    return std::ranges::none_of(judged.rows, [&](const Json& row) { return row.contains(key); });
+  });
+  const bool has_truths = has_several_truths(judged.rows);
   TextTable table{{"file", "method"}, {}};
   if (has_truths) table.header.emplace_back("truth");
   table.header.insert(table.header.end(), keys.begin(), keys.end());
   table.header.emplace_back("seconds");
-  const bool has_classes = has_runtime_classes(request);
+  keys.emplace_back("seconds");
+  const bool has_classes = request.protocol == Protocol::Vmv2013;
   if (has_classes) table.header.insert(table.header.end(), {"runtime_class", "all_views"});
-  for (const Row& row : rows) {
-    std::vector<std::string> cells{row.file, row.method};
-    if (has_truths) cells.push_back(row.truth);
+  for (const Json& row : judged.rows) {
+    std::vector<std::string> cells{text(row, "file"), text(row, "method")};
+    if (has_truths) cells.push_back(text(row, "truth"));
     for (const auto& key : keys) {
-      const auto value = find_metric(row.metrics, key);
-      cells.push_back(value ? fixed_text(*value, digits) : "");
+      cells.push_back(row.contains(key) ? fixed_text(row[key].get<double>(), digits) : "");
     }
-    cells.push_back(row.seconds > 0 ? fixed_text(row.seconds, digits) : "");
     if (has_classes) {
-      cells.emplace_back(row.seconds > 0 ? runtime_class(row.seconds) : "");
-      cells.emplace_back(row.has_all_views ? "yes" : "no");
+      cells.push_back(row.value("runtime_class", ""));
+      cells.emplace_back(row["all_views"] ? "yes" : "no");
     }
     table.rows.push_back(std::move(cells));
   }
@@ -406,40 +352,41 @@ TextTable results_table(const EvaluateRequest& request, const std::vector<Row>& 
 }
 
 /// What the numbers of a single truth were taken for.
-std::string truth_line(const std::vector<Row>& rows) {
-  const std::string& units = rows.front().truth_units;
+std::string truth_line(const std::vector<Json>& rows) {
+  const std::string units = rows.front().value("truth_units", "");
   return has_several_truths(rows) || units.empty() ? "" : "\ntruth: " + units;
 }
 
 void print_results(const EvaluateRequest& request, const JudgedResults& judged, const Job& job) {
-  const std::vector<Row>& rows = judged.rows;
+  const std::vector<Json>& rows = judged.rows;
   if (request.format == Format::Json) {
     std::vector<std::string> written;
-    for (const Row& row : rows) {
-      if (!row.error_map.empty()) written.push_back(row.error_map);
+    for (const Json& row : rows) {
+      if (row.contains("error_map")) written.push_back(row["error_map"]);
     }
     return print_answer(results_json(request, judged), job.notes(), written);
   }
   if (rows.empty()) return;
-  const TextTable table = results_table(request, rows);
+  const TextTable table = results_table(request, judged);
   if (request.format == Format::Csv) {
     std::cout << table_to_csv(table);
   } else if (request.format == Format::Latex) {
     std::cout << table_to_latex(table);
   } else {
     std::cout << protocol_name(request.protocol) << " against "
-              << (has_several_truths(rows) ? "the truth of each" : rows.front().truth) << ", view "
-              << view_text(rows.front().view) << truth_line(rows) << "\nmissing values count as "
-              << missing_rule(request.invalid) << "\n\n"
+              << (has_several_truths(rows) ? "the truth of each" : text(rows.front(), "truth"))
+              << ", view " << rows.front()["view"][0] << ',' << rows.front()["view"][1]
+              << truth_line(rows) << "\nmissing values count as " << missing_rule(request.invalid)
+              << "\n\n"
               << table_to_narrow_text(table);
   }
 }
 
 /// Names the pictures that were written, where the answer itself is for programs as notes.
-void tell_error_maps(const EvaluateRequest& request, const std::vector<Row>& rows, Job& job) {
-  for (const Row& row : rows) {
-    if (row.error_map.empty() || request.format == Format::Json) continue;
-    const std::string line = row.error_map + ": error of " + row.file;
+void tell_error_maps(const EvaluateRequest& request, const std::vector<Json>& rows, Job& job) {
+  for (const Json& row : rows) {
+    if (!row.contains("error_map") || request.format == Format::Json) continue;
+    const std::string line = text(row, "error_map") + ": error of " + text(row, "file");
     if (request.format == Format::Text) {
       std::cout << line << '\n';
     } else {
@@ -492,14 +439,16 @@ class Judge {
  public:
   Judge(const EvaluateRequest& request, Job& job)
       : request_(request),
-        options_{request.protocol, request.invalid, {}},
+        options_{.protocol = request.protocol,
+                 .invalid = request.invalid,
+                 .progress = job.progress()},
         reading_(map_reading(request.map)),
         job_(job),
         truth_(request, job.progress().part(0, 0.8)) {}
 
   /// Judges a result and writes its error map, unless that path is empty. Throws InvalidInput,
   /// IoError, Cancelled.
-  [[nodiscard]] Row judge_file(const JudgedFile& file, const std::filesystem::path& error_map) {
+  [[nodiscard]] Json judge_file(const JudgedFile& file, const std::filesystem::path& error_map) {
     const Scene& scene = truth_.of(file);
     const LightField& light_field = *scene.light_field;
     require_no_truth(file, scene.convention);
@@ -512,36 +461,31 @@ class Judge {
     const ViewIndex view = view_to_judge(*estimate, scene, wanted);
     place_foreign_map(view, *estimate);
     require_own_samples(file, *estimate, light_field);
-    const EvaluationPtr evaluation = evaluation_of(file, *estimate, scene, view);
-    const ResultFit fit = fit_of(*estimate, scene);
-    Row row{.file = file.result,
-            .truth = file.truth,
-            .truth_units = scene.convention.units,
-            .method = estimate->method,
-            .seconds = estimate->seconds,
-            .has_all_views = estimate->field.disparity.grid() == light_field.grid(),
-            .view = view,
-            .metrics = chosen(evaluation->metrics, request_.metrics),
-            .notes = fit.sentences(),
-            .better = fit.better,
-            .error_map = error_map.string()};
-    know_keys(evaluation->metrics);
-    std::ranges::copy(evaluation->notes, std::back_inserter(row.notes));
-    for (const std::string& sentence : row.notes) job_.note(file.result + ": " + sentence);
-    for (std::string& warning : truth_warnings(scene.convention)) {
+    const JudgedResult judged = judged_in(view, file, *estimate, scene);
+    know_keys(judged.evaluation->metrics);
+    for (const std::string& sentence : judged.notes) job_.note(file.result + ": " + sentence);
+    for (const std::string& warning : truth_warnings(scene.convention)) {
       if (told_.insert(file.truth + warning).second) job_.note(file.truth + ": " + warning);
-      row.notes.push_back(std::move(warning));
     }
-    write_error_map(error_map, {.view = view, .estimate = estimate, .evaluation = evaluation});
+    Json row{{"file", file.result}, {"method", {}}, {"truth", file.truth}};
+    row.update(judged_json(*estimate, scene, judged, request_.protocol,
+                           chosen(judged.evaluation->metrics, request_.metrics)));
+    if (error_map.empty()) return row;
+    write_error_map(error_map, {.quantity = render::Quantity::SignedError,
+                                .view = view,
+                                .estimate = estimate,
+                                .evaluation = judged.evaluation});
+    row["error_map"] = error_map.string();
     return row;
   }
-
   /// Throws UsageError for a key that none of the results has.
   void require_known_keys() const {
     for (const std::string& key : request_.metrics) {
       if (std::ranges::find(keys_, key) == keys_.end()) throw unknown_name("metric", key, keys_);
     }
   }
+  /// Of all metrics so far.
+  [[nodiscard]] const std::vector<std::string>& keys() const { return keys_; }
 
  private:
   /// The ground truth itself would have no error.
@@ -569,26 +513,21 @@ class Judge {
               ", which it was estimated from; the samples are the same");
   }
 
-  [[nodiscard]] EvaluationPtr evaluation_of(const JudgedFile& file, const Estimate& estimate,
-                                            const Scene& scene, ViewIndex view) {
-    EvaluationOptions options = options_;
-    options.progress = job_.progress();
+  [[nodiscard]] JudgedResult judged_in(ViewIndex view, const JudgedFile& file,
+                                       const Estimate& estimate, const Scene& scene) const {
     try {
-      return std::make_shared<const Evaluation>(judge(estimate, scene, options, view));
+      return judge_result(estimate, scene, options_, view);
     } catch (const InvalidInput& error) {
       throw IoError(file.result, error.what());
     }
   }
-
   void know_keys(const Metrics& metrics) {
     for (const auto& [key, value] : metrics) {
       if (std::ranges::find(keys_, key) == keys_.end()) keys_.push_back(key);
     }
   }
 
-  void write_error_map(const std::filesystem::path& path, MapSource source) const {
-    if (path.empty()) return;
-    source.quantity = render::Quantity::SignedError;
+  void write_error_map(const std::filesystem::path& path, const MapSource& source) const {
     const auto picture = map_picture(*make_map(source), shading_of(source.quantity, {}));
     write_output(path, request_.overwrite,
                  [&](const std::filesystem::path& to) { io::write_picture(to, picture.view()); });
@@ -599,8 +538,8 @@ class Judge {
   io::MapReading reading_;
   Job& job_;
   TruthScene truth_;
-  std::vector<std::string> keys_;  ///< Of all metrics so far.
-  std::set<std::string> told_;     ///< Warnings of truths, each said once.
+  std::vector<std::string> keys_;
+  std::set<std::string> told_;  ///< Warnings of truths, each said once.
 };
 
 /// Judges all. One of several that fails is noted and does not stop the others.
@@ -613,18 +552,21 @@ JudgedResults judge_all(const std::vector<JudgedFile>& files,
     try {
       if (!files[i].problem.empty()) throw Error(files[i].problem);
       judged.rows.push_back(judge.judge_file(files[i], maps[i]));
-      judged.rows.back().file = shown;
+      judged.rows.back()["file"] = shown;
     } catch (const UsageError&) {
       throw;
     } catch (const Error& error) {
       if (files.size() == 1) throw;
       const std::string text = error.what();
       const std::string sentence = text.starts_with(files[i].result) ? text : shown + ": " + text;
-      judged.failed.push_back({shown, files[i].truth, sentence});
+      judged.failed.push_back({{"file", shown}});
+      if (!files[i].truth.empty()) judged.failed.back()["truth"] = files[i].truth;
+      judged.failed.back()["error"] = sentence;
       job.note(sentence);
     }
     job.progress().report(0.8 + 0.2 * static_cast<double>(i + 1) / files.size());
   }
+  judged.keys = judge.keys();
   return judged;
 }
 
@@ -653,7 +595,7 @@ void run_evaluate(const VerbArguments& arguments, std::stop_token stop) {
   print_results(request, judged, job);
   tell_error_maps(request, judged.rows, job);
   Failures failures;
-  for (const FailedResult& each : judged.failed) failures.add(each.error);
+  for (const Json& each : judged.failed) failures.add(text(each, "error"));
   failures.require_none(files.size(), "results");
 }
 

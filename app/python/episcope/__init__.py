@@ -30,21 +30,4 @@ from ._episcope import (
     score,
 )
 
-__all__ = [
-    "Camera",
-    "Error",
-    "InvalidInput",
-    "IoError",
-    "Labeling",
-    "LightField",
-    "Result",
-    "Unavailable",
-    "decode",
-    "demo",
-    "epi",
-    "estimate",
-    "label",
-    "methods",
-    "open",
-    "score",
-]
+__all__ = [name for name in dir() if not name.startswith("_")]
