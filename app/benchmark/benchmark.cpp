@@ -28,8 +28,6 @@ namespace fs = std::filesystem;
 // that `read_result_of` reads. Seconds come from a result file, else from a text file named
 // after the scene (`runtimes/cotton.txt`, `cotton.txt`) whose first word is a number.
 
-constexpr double kFarthest = 20;  // px per view step, either way
-
 bool is_map(const fs::path& path) {
   const auto form = map_form_of(path);
   return form && *form != MapForm::PointCloud;
@@ -71,33 +69,6 @@ double seconds_of(const fs::path& folder, const std::string& scene) {
   return std::isfinite(seconds) ? std::max(0.0, seconds) : 0;
 }
 
-void check_values(const fs::path& map, ViewIndex view, bool asks_for_depth, Estimate& estimate) {
-  if (!estimate.field.contains(view)) {
-    throw IoError(map,
-                  "does not cover the center view " + view_text(view) + ", which is evaluated");
-  }
-  const DisparityView values = estimate.field.view(view);
-  std::size_t missing = 0, count = 0;
-  double farthest = 0;
-  const int border = estimate.border_px;
-  for (int y = border; y < values.disparity.height - border; ++y) {
-    for (int x = border; x < values.disparity.width - border; ++x) {
-      ++count;
-      if (!values.is_valid(y, x)) {
-        ++missing;
-      } else {
-        farthest = std::max(farthest, std::abs(double{values.disparity.at(y, x)}));
-      }
-    }
-  }
-  if (missing == count) throw IoError(map, "contains no finite value in the center view");
-  if (farthest > kFarthest && asks_for_depth) {
-    estimate.notes.push_back(map.filename().string() + ": disparities reach " +
-                             fixed_text(farthest, 1) +
-                             " px; are they depth instead of px per view step?");
-  }
-}
-
 std::string submission_name(const fs::path& folder) {
   return (fs::absolute(folder) / "x").lexically_normal().parent_path().filename().string();
 }
@@ -108,11 +79,9 @@ void check_submission(const fs::path& folder) {
   throw IoError(folder, "is not a folder; a submission is a folder of maps named after the scenes");
 }
 
-/// The map for the light field of a scene, empty if the submission has none. Its notes tell whether
-/// another reading fits far better (find_better_reading), or else whether it explains little of the
-/// truth (doubt_text), and whether values lie beyond ±20 px, which no densely sampled light
-/// field has. Throws IoError, InvalidInput if it cannot be read, if there are several, if size or
-/// views do not fit, or if the view holds no finite value.
+/// The map for the light field of a scene, empty if the submission has none. Its notes tell how it
+/// fits (fit_of). Throws IoError, InvalidInput if it cannot be read, if there are several, or if
+/// size or views do not fit.
 std::optional<Estimate> read_submission(const fs::path& folder, const Scene& scene,
                                         const io::MapReading& reading) {
   const LightField& light_field = *scene.light_field;
@@ -130,7 +99,9 @@ std::optional<Estimate> read_submission(const fs::path& folder, const Scene& sce
   for (const std::string& sentence : fit.sentences()) {
     estimate.notes.push_back(maps.front().filename().string() + ": " + sentence);
   }
-  check_values(maps.front(), light_field.center(), !fit.better, estimate);
+  if (!estimate.field.contains(light_field.center())) {
+    throw IoError(maps.front(), "does not cover the center view, which is evaluated");
+  }
   if (!(estimate.seconds > 0)) estimate.seconds = seconds_of(folder, name);
   return estimate;
 }
@@ -191,7 +162,7 @@ class Runner {
   [[nodiscard]] double expected_seconds(const std::string& input, const BenchmarkRun& run) const {
     double sum = 0;
     int count = 0;
-    for (const BenchmarkRecord& record : log_.records()) {
+    for (const BenchmarkRecord& record : log_.all()) {
       if (record.run.method != run.method || record.run.kind != run.kind) continue;
       const bool is_same = record.input == input && record.run.parameters == run.parameters;
       if (is_same && !record.result.has_failed) return 0;

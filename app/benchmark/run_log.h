@@ -90,7 +90,7 @@ class RunRecords {
 
 /// `log.jsonl` of a benchmark: every run and every point of a search, one JSON object a line,
 /// flushed as soon as it is finished. What it holds need not be computed again.
-class RunLog {
+class RunLog : public RunRecords {
  public:
   static constexpr const char* kFileName = "log.jsonl";
 
@@ -99,25 +99,13 @@ class RunLog {
   /// A log of that name of a benchmark in that folder.
   RunLog(const std::filesystem::path& folder, const std::filesystem::path& file);
 
-  /// As of RunRecords.
-  [[nodiscard]] const BenchmarkRecord* find(const std::string& key,
-                                            const std::string& scene) const {
-    return known_.find(key, scene);
-  }
-  [[nodiscard]] const BenchmarkRecord* last(const std::string& key,
-                                            const std::string& scene) const {
-    return known_.last(key, scene);
-  }
   /// Throws IoError.
   void add(const BenchmarkRecord& record);
   /// Adds runs that were made elsewhere and are not in the log yet. Throws IoError.
   void take_over(const std::vector<BenchmarkRecord>& records);
 
-  [[nodiscard]] const std::vector<BenchmarkRecord>& records() const { return known_.all(); }
-
  private:
   io::AppendLog log_;
-  RunRecords known_;
 };
 
 /// Takes in bytes, values and images; `text` is 16 hexadecimal digits that change with them.

@@ -3,6 +3,7 @@
 
 #include "app/session/label_review.h"
 #include "app/session/picture.h"
+#include "app/session/result_files.h"
 #include "app/session/run_estimator.h"
 #include "app/session/scene_summary.h"
 #include "engine/core/error.h"
@@ -35,7 +36,7 @@ void fail(BenchmarkResult& result, const std::string& problem) {
 }  // namespace
 
 SceneRuns::SceneRuns(const BenchmarkOptions& options, const LoadedScene& open)
-    : options_(options), open_(open), labels_(open.scene, open.name) {}
+    : options_(options), open_(open) {}
 
 std::string SceneRuns::key(const BenchmarkRun& run) const {
   return record_key(run,
@@ -50,7 +51,7 @@ BenchmarkRecord SceneRuns::make(const PlannedRun& planned, const Progress& progr
   record.result.has_all_views = planned.run.views == ViewSelection::All;
   try {
     if (planned.run.kind == RunKind::Labels) {
-      labels_.run(options_.labels[planned.index], options_.folder, progress, record);
+      label_and_judge(options_.labels[planned.index], progress, record);
     } else {
       run_and_judge(options_.methods[planned.index], progress, record);
     }
@@ -93,6 +94,37 @@ void SceneRuns::run_and_judge(const Estimator& method, const Progress& progress,
   record.files.push_back(map_file(open_.name, result.entry));
   io::write_result(options_.folder / record.files.back(), *center, progress.part(0.95, 1));
 }
+
+namespace {
+
+// Raised when the same parameters give other labels.
+constexpr int kLabelRevision = 1;
+
+/// Labels of all views with these parameters, named "image+estimate-rayspace".
+BenchmarkRun label_run(const LabelerParameters& way) {
+  return {RunKind::Labels, name_of(way.features) + "-" + name_of(way.regularizer), kLabelRevision,
+          labeler_schema().values(way), ViewSelection::All};
+}
+
+/// Changes with what labels and their scores depend on besides `scene_fingerprint`: the strokes,
+/// and true labels and disparity of all views.
+std::string label_fingerprint(const Scene& scene) {
+  Fingerprint fingerprint;
+  for (const ViewScribbles& painted : scene.scribbles.views) {
+    fingerprint.add(view_text(painted.view));
+    fingerprint.add_image(painted.labels.view());
+  }
+  const auto add_views = [&fingerprint](const auto& stack) {
+    for (int i = 0; i < stack.grid().count(); ++i) {
+      fingerprint.add_image(stack.view(stack.view_at(i)));
+    }
+  };
+  add_views(scene.truth->labels);
+  add_views(scene.truth->field.disparity);
+  return fingerprint.text();
+}
+
+}  // namespace
 
 std::string LoadedScene::whole_fingerprint() const {
   return labels_fingerprint.empty() ? fingerprint : text_fingerprint(labels_fingerprint);
@@ -139,7 +171,7 @@ std::vector<PlannedRun> planned_runs(const BenchmarkOptions& options) {
     runs.push_back({table_run(methods[i], options), i});
   }
   for (std::size_t i = 0; i < options.labels.size(); ++i) {
-    runs.push_back({plan_label_run(options.labels[i]), i});
+    runs.push_back({label_run(options.labels[i]), i});
   }
   for (std::size_t i = 0; options.has_search && i < methods.size(); ++i) {
     for (ParameterSet& point : search_grid(methods[i].parameters)) {
@@ -154,73 +186,6 @@ std::vector<PlannedRun> planned_runs(const BenchmarkOptions& options) {
 
 namespace {
 
-// Raised when the same parameters give other labels.
-constexpr int kRevision = 1;
-
-void require_strokes(const Scene& scene, const std::string& name) {
-  if (!scene.scribbles.empty()) return;
-  throw InvalidInput(name + " has no strokes beside it; paint some in the window and save them");
-}
-
-}  // namespace
-
-std::string label_entry(const LabelerParameters& parameters) {
-  return name_of(parameters.features) + "-" + name_of(parameters.regularizer);
-}
-
-BenchmarkRun plan_label_run(const LabelerParameters& parameters) {
-  return {RunKind::Labels, label_entry(parameters), kRevision, labeler_schema().values(parameters),
-          ViewSelection::All};
-}
-
-std::string label_fingerprint(const Scene& scene) {
-  Fingerprint fingerprint;
-  for (const ViewScribbles& painted : scene.scribbles.views) {
-    fingerprint.add(view_text(painted.view));
-    fingerprint.add_image(painted.labels.view());
-  }
-  for (int i = 0; i < scene.truth->labels.grid().count(); ++i) {
-    fingerprint.add_image(scene.truth->labels.view(scene.truth->labels.view_at(i)));
-  }
-  const DisparityField& field = scene.truth->field;
-  for (int i = 0; i < field.disparity.grid().count(); ++i) {
-    fingerprint.add_image(field.disparity.view(field.disparity.view_at(i)));
-  }
-  return fingerprint.text();
-}
-
-LabelRuns::LabelRuns(const Scene& scene, std::string name)
-    : scene_(scene), name_(std::move(name)) {}
-
-const LabelingDisparity& LabelRuns::disparity_for(const LabelerParameters& parameters,
-                                                  const Progress& progress) {
-  auto& disparity = parameters.features == FeatureSet::ImageTruth ? truth_ : estimate_;
-  if (!disparity) disparity = find_labeling_disparity(scene_, parameters, {}, progress);
-  return *disparity;
-}
-
-void LabelRuns::run(const LabelerParameters& parameters, const std::filesystem::path& folder,
-                    const Progress& progress, BenchmarkRecord& record) {
-  require_strokes(scene_, name_);
-  const LabelingDisparity& disparity = disparity_for(parameters, progress.part(0, 0.2));
-  const LightField& light_field = *scene_.light_field;
-  Labeler labeler(scene_.light_field, disparity.field, find_edge_probabilities(scene_, progress),
-                  disparity.confidence());
-  const auto labeling = std::make_shared<const Labeling>(labeler.label(
-      scene_.scribbles, parameters, {{0, 0}, light_field.grid()}, progress.part(0.2, 0.95)));
-  progress.step("evaluating");
-  const LabelingScores scores =
-      judge_labeling(labeling->labels, light_field.center(), scene_.truth->labels, *scene_.truth,
-                     disparity.field.get(), progress.part(0.95, 1));
-  BenchmarkResult& result = record.result;
-  result.seconds = labeling->seconds;
-  result.labels = label_metrics(scores.all_views, scores.view, scores.consistency);
-  if (!scores.all_views.all.share()) result.problem = name_ + " has no true labels of all views";
-  record.files = write_label_pictures(folder, name_, scene_, labeling, result.entry);
-}
-
-namespace {
-
 using render::Quantity;
 
 std::string in_scene(const std::string& scene, const std::string& file) {
@@ -230,19 +195,6 @@ std::string in_scene(const std::string& scene, const std::string& file) {
 void write_map(const std::filesystem::path& path, const MapSource& source, Interval range) {
   io::write_picture(path,
                     map_picture(*make_map(source), shading_of(source.quantity, range)).view());
-}
-
-template <class T>
-ViewStack<T> one_view(const ViewStack<T>& stack, ViewIndex view) {
-  if (stack.empty() || !stack.contains(view)) return {};
-  ViewStack<T> one({1, 1}, stack.height(), stack.width(), stack.channels(), view);
-  const auto from = stack.view(view);
-  std::copy_n(from.data, from.size(), one.data());
-  return one;
-}
-
-DisparityField one_view(const DisparityField& field, ViewIndex view) {
-  return {one_view(field.disparity, view), one_view(field.valid, view)};
 }
 
 // Labels of the center view of a scene.
@@ -311,6 +263,18 @@ bool write_label_truth(const std::filesystem::path& folder, const std::string& n
   return true;
 }
 
+Estimate center_of(const Estimate& estimate, ViewIndex center) {
+  Estimate one = one_view(estimate, center);
+  if (estimate.field.disparity.grid().count() > 1) {
+    one.notes.emplace_back("the seconds are those of all views");
+  }
+  return one;
+}
+
+namespace {
+
+/// Pictures of the labels of the center view and, where true labels are known, of what is wrong.
+/// Returns what was written.
 std::vector<std::string> write_label_pictures(const std::filesystem::path& folder,
                                               const std::string& name, const Scene& scene,
                                               const LabelingPtr& labeling,
@@ -326,19 +290,36 @@ std::vector<std::string> write_label_pictures(const std::filesystem::path& folde
   return files;
 }
 
-Estimate center_of(const Estimate& estimate, ViewIndex center) {
-  Estimate one;
-  one.field = one_view(estimate.field, center);
-  one.confidence = one_view(estimate.confidence, center);
-  one.layered.foreground = one_view(estimate.layered.foreground, center);
-  one.layered.background = one_view(estimate.layered.background, center);
-  one.layered.layers = one_view(estimate.layered.layers, center);
-  one.second = one_view(estimate.second, center);
-  one.set_provenance(estimate.provenance());
-  if (estimate.field.disparity.grid().count() > 1) {
-    one.notes.emplace_back("the seconds are those of all views");
+}  // namespace
+
+const LabelingDisparity& SceneRuns::disparity_for(const LabelerParameters& way,
+                                                  const Progress& progress) {
+  auto& disparity = way.features == FeatureSet::ImageTruth ? truth_ : estimate_;
+  if (!disparity) disparity = find_labeling_disparity(open_.scene, way, {}, progress);
+  return *disparity;
+}
+
+void SceneRuns::label_and_judge(const LabelerParameters& way, const Progress& progress,
+                                BenchmarkRecord& record) {
+  const Scene& scene = open_.scene;
+  if (scene.scribbles.empty()) {
+    throw InvalidInput(open_.name +
+                       " has no strokes beside it; paint some in the window and save them");
   }
-  return one;
+  const LabelingDisparity& disparity = disparity_for(way, progress.part(0, 0.2));
+  const GridShape grid = scene.light_field->grid();
+  Labeler labeler = labeler_of(scene, disparity, progress);
+  const auto labeling = std::make_shared<const Labeling>(
+      labeler.label(scene.scribbles, way, {{0, 0}, grid}, progress.part(0.2, 0.95)));
+  progress.step("evaluating");
+  const LabelingScores scores = judge_labeling(*labeling, scene, disparity, progress.part(0.95, 1));
+  BenchmarkResult& result = record.result;
+  result.seconds = labeling->seconds;
+  result.labels = label_metrics(scores.all_views, scores.view, scores.consistency);
+  if (!scores.all_views.all.share()) {
+    result.problem = open_.name + " has no true labels of all views";
+  }
+  record.files = write_label_pictures(options_.folder, open_.name, scene, labeling, result.entry);
 }
 
 }  // namespace episcope

@@ -57,37 +57,6 @@ struct PlannedRun {
 /// each method. Searches need a true disparity.
 [[nodiscard]] std::vector<PlannedRun> planned_runs(const BenchmarkOptions& options);
 
-/// The name of a way to label: "image+estimate-rayspace".
-[[nodiscard]] std::string label_entry(const LabelerParameters& parameters);
-
-/// Labels of all views with these parameters.
-[[nodiscard]] BenchmarkRun plan_label_run(const LabelerParameters& parameters);
-
-/// Changes with what labels and their scores depend on besides `scene_fingerprint`: the strokes,
-/// and true labels and disparity of all views.
-[[nodiscard]] std::string label_fingerprint(const Scene& scene);
-
-/// Labels the views of one scene from its strokes, in several ways; borrows the scene. The
-/// disparity that they share is estimated once, when it is first needed.
-class LabelRuns {
- public:
-  LabelRuns(const Scene& scene, std::string name);
-
-  /// Labels all views, judges them, and writes pictures of the labels of the center view and of
-  /// what is wrong below `folder`; score, seconds without the disparity, and files go into the
-  /// record. Throws InvalidInput without strokes or what the features need, IoError, Cancelled.
-  void run(const LabelerParameters& parameters, const std::filesystem::path& folder,
-           const Progress& progress, BenchmarkRecord& record);
-
- private:
-  [[nodiscard]] const LabelingDisparity& disparity_for(const LabelerParameters& parameters,
-                                                       const Progress& progress);
-
-  const Scene& scene_;
-  std::string name_;
-  std::optional<LabelingDisparity> estimate_, truth_;
-};
-
 /// Makes the runs of a benchmark on one scene; borrows both.
 class SceneRuns {
  public:
@@ -107,10 +76,14 @@ class SceneRuns {
 
  private:
   void run_and_judge(const Estimator& method, const Progress& progress, BenchmarkRecord& record);
+  void label_and_judge(const LabelerParameters& way, const Progress& progress,
+                       BenchmarkRecord& record);
+  [[nodiscard]] const LabelingDisparity& disparity_for(const LabelerParameters& way,
+                                                       const Progress& progress);
 
   const BenchmarkOptions& options_;
   const LoadedScene& open_;
-  LabelRuns labels_;
+  std::optional<LabelingDisparity> estimate_, truth_;  // that ways to label share
 };
 
 /// Files of a benchmark, named below its folder. All are written atomically; all functions that
@@ -139,13 +112,6 @@ std::vector<std::string> write_pictures(const std::filesystem::path& folder,
 /// Writes a picture of the true labels of the center view; returns whether it has any.
 bool write_label_truth(const std::filesystem::path& folder, const std::string& name,
                        const Scene& scene);
-
-/// Pictures of the labels of the center view and, where true labels are known, of what is wrong.
-/// Returns what was written.
-std::vector<std::string> write_label_pictures(const std::filesystem::path& folder,
-                                              const std::string& name, const Scene& scene,
-                                              const LabelingPtr& labeling,
-                                              const std::string& entry);
 
 /// The center view of an estimate, with a note if its seconds are for all views.
 [[nodiscard]] Estimate center_of(const Estimate& estimate, ViewIndex center);

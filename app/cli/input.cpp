@@ -130,6 +130,13 @@ Scene load_input(const std::string& input, const ReadOptions& options, const Pro
                     progress);
 }
 
+Scene load_input(const std::string& input, const ReadOptions& options, Job& job,
+                 const Progress& progress) {
+  Scene scene = load_input(input, options, progress);
+  for (const std::string& warning : scene.convention.warnings) job.note(warning);
+  return scene;
+}
+
 Scene load_input(const std::string& input, io::OpenOptions open, bool needs_truth,
                  const Progress& progress) {
   const std::string builtin = builtin_scene_id(input);
@@ -146,6 +153,12 @@ Scene load_input_of(const NamedReading& result, const std::string& input,
   return load_input(
       input, options_for_result(result.file, result.reading, input, options.options.values()),
       options.needs_truth, progress);
+}
+
+void fail_without_source(const std::string& file, const std::string& named) {
+  constexpr const char* kRemedy = "; name it with --truth INPUT";
+  if (named.empty()) throw UsageError(file + " does not tell its light field" + kRemedy);
+  throw IoError(file, "its light field, " + named + ", is not there" + kRemedy);
 }
 
 ViewIndex view_of(const LightField& light_field, ViewIndex view) {
@@ -260,6 +273,39 @@ std::vector<SceneInput> scene_inputs_and_failed(const std::vector<std::string>& 
 
 bool is_collection(const std::string& input, const ReadOptions& options, const Progress& progress) {
   return !entries_at(input, options, progress).empty();
+}
+
+ManyAnswers answers_of_many(const std::vector<SceneInput>& scenes, Job& job,
+                            const std::function<Json(const SceneInput&, const Progress&)>& work) {
+  ManyAnswers answers;
+  const auto count = static_cast<double>(scenes.size());
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const auto done = static_cast<double>(i);
+    const Progress part =
+        job.progress().part(done / count, (done + 1) / count).titled(scenes[i].name);
+    try {
+      answers.results.push_back(work(scenes[i], part));
+    } catch (const Error& error) {
+      answers.failures.add(error.what());
+      answers.results.push_back({{"input", scenes[i].input}, {"error", error.what()}});
+      job.note(error.what());
+    }
+  }
+  job.finish();
+  return answers;
+}
+
+void ManyAnswers::finish(Job& job, bool is_json) {
+  const std::size_t count = results.size();
+  std::vector<std::string> written;
+  for (const Json& result : results) {
+    if (!result.contains("written")) continue;
+    std::ranges::copy(result["written"], std::back_inserter(written));
+  }
+  if (is_json) {
+    print_answer(Json::object({{"results", std::move(results)}}), job.notes(), written);
+  }
+  failures.require_none(count);
 }
 
 }  // namespace episcope::cli

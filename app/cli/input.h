@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/cli/job.h"
+#include "app/cli/output.h"
 #include "app/cli/parameter_options.h"
 #include "engine/core/estimate.h"
 #include "engine/core/light_field.h"
@@ -10,6 +11,9 @@
 #include "engine/io/models/map_reading.h"
 #include "engine/io/models/open_options.h"
 
+#include <nlohmann/json.hpp>
+
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -58,6 +62,9 @@ void check_input(const std::string& input);
 /// Throws UsageError for an unknown built-in scene or a bad option, IoError, Cancelled.
 [[nodiscard]] Scene load_input(const std::string& input, const ReadOptions& options,
                                const Progress& progress);
+/// Opens it, and notes what there is to know of how it was read.
+[[nodiscard]] Scene load_input(const std::string& input, const ReadOptions& options, Job& job,
+                               const Progress& progress);
 /// Opens an INPUT with options that do not come from the command line.
 [[nodiscard]] Scene load_input(const std::string& input, io::OpenOptions open, bool needs_truth,
                                const Progress& progress);
@@ -77,6 +84,10 @@ struct NamedReading {
 /// the file.
 [[nodiscard]] Scene load_input_of(const NamedReading& result, const std::string& input,
                                   const ReadOptions& options, const Progress& progress);
+
+/// For a file of a result or of labels without its light field: throws UsageError if it names none
+/// (`named` is empty), else IoError, since that is not there.
+[[noreturn]] void fail_without_source(const std::string& file, const std::string& named);
 
 /// The view itself. Throws InvalidInput if the light field has no such view.
 [[nodiscard]] ViewIndex view_of(const LightField& light_field, ViewIndex view);
@@ -123,5 +134,18 @@ enum class Frames { One, All };
 /// Whether an INPUT is a folder that is no light field itself but holds some.
 [[nodiscard]] bool is_collection(const std::string& input, const ReadOptions& options,
                                  const Progress& progress);
+
+/// Answers of several light fields.
+struct ManyAnswers {
+  Json results = Json::array();  ///< What `work` returned, else "input" and "error".
+  Failures failures;
+
+  /// Prints all, if they are to be JSON; then throws Error if any failed.
+  void finish(Job& job, bool is_json);
+};
+/// Does `work` for one after the other. One that fails is noted and does not stop the others.
+[[nodiscard]] ManyAnswers answers_of_many(
+    const std::vector<SceneInput>& scenes, Job& job,
+    const std::function<Json(const SceneInput&, const Progress&)>& work);
 
 }  // namespace episcope::cli

@@ -5,6 +5,7 @@
 #include "app/session/command_line.h"
 #include "engine/core/error.h"
 #include "engine/core/text.h"
+#include "engine/disparity/registry.h"
 
 namespace episcope::cli {
 namespace {
@@ -105,6 +106,17 @@ std::string domain_text(const ParameterDescription& parameter) {
   return std::holds_alternative<IntervalOrAuto>(parameter.default_value)
              ? "auto, found or A,B in " + ends
              : ends;
+}
+
+std::vector<Estimator> methods_named(const std::vector<std::string>& ids) {
+  std::vector<Estimator> methods;
+  for (const std::string& id : ids) {
+    const Estimator* const known = known_estimator(id);
+    if (known == nullptr) throw unknown_name("method", id, estimator_ids());
+    const auto is_same = [&](const Estimator& each) { return each.info.id == known->info.id; };
+    if (std::ranges::none_of(methods, is_same)) methods.push_back(*known);
+  }
+  return methods;
 }
 
 }  // namespace episcope::cli

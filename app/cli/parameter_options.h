@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/core/parameter.h"
+#include "engine/disparity/estimator.h"
 
 #include <map>
 #include <optional>
@@ -30,5 +31,8 @@ class ParameterOptions {
 
 /// "0.1 … 4 px", "auto or A,B in -8 … 8 px", "a|b|c", "true|false".
 [[nodiscard]] std::string domain_text(const ParameterDescription& parameter);
+
+/// Methods by their ids, each once. Throws UsageError for an unknown one.
+[[nodiscard]] std::vector<Estimator> methods_named(const std::vector<std::string>& ids);
 
 }  // namespace episcope::cli

@@ -48,22 +48,14 @@ const char* suffix_by_begin(std::string_view bytes) {
   return ".csv";
 }
 
-}  // namespace
-
-StreamFolder::~StreamFolder() {
+/// A file for a stream, in a folder that is made for it.
+std::string file_in(std::optional<HiddenFolder>& folder, const std::string& name) {
   std::error_code ignored;
-  if (!path_.empty()) fs::remove_all(path_, ignored);
+  folder.emplace(fs::temp_directory_path(ignored) / "episcope");
+  return folder->path() / name;
 }
 
-fs::path StreamFolder::file(const std::string& name) {
-  if (path_.empty()) {
-    std::error_code ignored;
-    std::string folder = (fs::temp_directory_path(ignored) / "episcope-XXXXXX").string();
-    if (mkdtemp(folder.data()) == nullptr) throw io::write_error(folder);
-    path_ = folder;
-  }
-  return path_ / name;
-}
+}  // namespace
 
 InputStream::InputStream(std::string& name, const std::stop_token& stop) {
   if (name == kStream) read(name, stop);
@@ -78,7 +70,7 @@ InputStream::InputStream(std::vector<std::string>& names, const std::stop_token&
 void InputStream::read(std::string& name, const std::stop_token& stop) {
   const std::string bytes = read_to_end(stop);
   if (bytes.empty()) throw IoError(kStream, "standard input is empty; redirect a file to it");
-  file_ = folder_.file(std::string("stdin") + suffix_by_begin(bytes)).string();
+  file_ = file_in(folder_, std::string("stdin") + suffix_by_begin(bytes));
   std::ofstream out(file_, std::ios::binary);
   if (!out.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush()) {
     throw io::write_error(file_);
@@ -104,7 +96,7 @@ void require_no_other_source(const fs::path& output, Overwrite overwrite) {
 OutputStream::OutputStream(std::string& name, const std::string& suffix) {
   if (name != kStream && !name.ends_with(":-")) return;
   const std::string form = name == kStream ? suffix : "." + name.substr(0, name.size() - 2);
-  file_ = folder_.file("stdout" + form).string();
+  file_ = file_in(folder_, "stdout" + form);
   name = file_;
 }
 

@@ -4,26 +4,12 @@
 #include "app/session/replace_file.h"
 
 #include <filesystem>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <vector>
 
 namespace episcope::cli {
-
-/// A folder for temporary files that goes with this object.
-class StreamFolder {
- public:
-  StreamFolder() = default;
-  ~StreamFolder();
-  StreamFolder(const StreamFolder&) = delete;
-  StreamFolder& operator=(const StreamFolder&) = delete;
-
-  /// A file there; the folder is made first. Throws IoError.
-  [[nodiscard]] std::filesystem::path file(const std::string& name);
-
- private:
-  std::filesystem::path path_;
-};
 
 /// Standard input as a file, for what reads files.
 class InputStream {
@@ -44,7 +30,7 @@ class InputStream {
  private:
   void read(std::string& name, const std::stop_token& stop);
 
-  StreamFolder folder_;
+  std::optional<HiddenFolder> folder_;
   std::string file_;
 };
 
@@ -66,7 +52,7 @@ class OutputStream {
   void require_alone(bool is_json) const;
 
  private:
-  StreamFolder folder_;
+  std::optional<HiddenFolder> folder_;
   std::string file_;
 };
 

@@ -99,13 +99,13 @@ void save_estimate(const FoundEstimate& found, const py::object& given_path, con
   }
   run_job(py::none(), 0, [&](const Progress& job) {
     if (*form == MapForm::Result) {
-      check_result_output(path,
-                          {.method = estimate.method,
-                           .parameters = estimate.parameters,
-                           .input = found.of.input,
-                           .reading = estimate.reading.options,
-                           .is_of_one_view = estimate.field.disparity.grid().count() == 1},
-                          overwrite, kByArgument);
+      check_made_output(path,
+                        {.method = estimate.method,
+                         .parameters = estimate.parameters,
+                         .input = found.of.input,
+                         .reading = estimate.reading.options,
+                         .is_of_one_view = estimate.field.disparity.grid().count() == 1},
+                        overwrite, kByArgument);
       return save_result(path, estimate, found.of.input, job);
     }
     const auto write = [&](const std::filesystem::path& file) {

@@ -115,9 +115,7 @@ ScoredLabels label_scene(const Scene& scene, const Scribbles& scribbles,
                          Device device, const Progress& progress) {
   const LabelingDisparity disparity =
       disparity_for(scene, parameters, given, device, progress.part(0, 0.2));
-  Labeler labeler(scene.light_field, disparity.field, find_edge_probabilities(scene, progress),
-                  disparity.confidence());
-  labeler.compute_on(device);
+  Labeler labeler = labeler_of(scene, disparity, progress, device);
   ScoredLabels found;
   found.segmentation.labeling = std::make_shared<const Labeling>(labeler.label(
       scribbles, parameters, {{0, 0}, scene.light_field->grid()}, progress.part(0.2, 0.95)));
@@ -126,9 +124,8 @@ ScoredLabels label_scene(const Scene& scene, const Scribbles& scribbles,
   found.segmentation.reading = scene.light_field->info().reading;
   found.segmentation.sources_hash =
       hash_of(LabelSources{scribbles, given ? disparity.field.get() : nullptr});
-  found.scores = judge_labeling(found.segmentation.labeling->labels, scene.light_field->center(),
-                                scene.truth->labels, *scene.truth, disparity.field.get(),
-                                progress.part(0.95, 1));
+  found.scores =
+      judge_labeling(*found.segmentation.labeling, scene, disparity, progress.part(0.95, 1));
   found.notes = stroke_notes(scribbles, scene.truth->labels);
   if (given) {
     std::ranges::move(fit_of(*given, scene).sentences(), std::back_inserter(found.notes));
@@ -177,9 +174,9 @@ void save_labels(const FoundLabels& found, const py::object& given_path, bool pr
     throw InvalidInput(path.string() + ": labels are saved as HDF5; let the name end in .h5");
   }
   const Segmentation& made = found.segmentation;
-  check_labeling_output(
-      path, {{}, made.parameters, found.of.input, made.reading.options, made.sources_hash},
-      is_overwriting ? Overwrite::Yes : Overwrite::No, kByArgument);
+  check_made_output(path,
+                    {{}, made.parameters, found.of.input, made.reading.options, made.sources_hash},
+                    is_overwriting ? Overwrite::Yes : Overwrite::No, kByArgument);
   const auto stored = probabilities ? StoredProbabilities::All : StoredProbabilities::None;
   run_job(py::none(), 0, [&](const Progress& job) {
     write_segmentation(path, made, found.of.input, stored, job);

@@ -7,6 +7,7 @@
 #include "engine/capture/mesh_file.h"
 #include "engine/capture/rectify.h"
 #include "engine/capture/solve_pose.h"
+#include "engine/capture/view_surface.h"
 #include "engine/core/estimate.h"
 #include "engine/core/progress.h"
 #include "engine/core/scene.h"
@@ -105,7 +106,8 @@ struct PosedMesh {
 /// The scene with the depth of meshes in all views as its ground truth, and as labels which mesh is
 /// seen, from 1 on. Throws as `mesh_estimate`.
 [[nodiscard]] Scene with_mesh_truth(std::span<const PosedMesh> meshes, const Scene& scene,
-                                    const Progress& progress);
+                                    const Progress& progress,
+                                    const capture::DepthOptions& options = {});
 
 /// Photographs of a gantry and where the light field made of them goes.
 struct RectifyTask {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/session/judge.h"
 
+#include "app/session/result_fit.h"
 #include "engine/core/error.h"
 
 #include <nlohmann/json.hpp>
@@ -104,17 +105,6 @@ bool compares_layers(const Estimate& estimate, const GroundTruth& truth) {
          !estimate.layered.background.empty();
 }
 
-void require_view(const DisparityField& estimate, ViewIndex view) {
-  if (estimate.contains(view)) return;
-  const auto& stack = estimate.disparity;
-  throw InvalidInput("the result has " +
-                     (stack.empty()
-                          ? std::string("no disparity")
-                          : std::to_string(stack.grid().v) + "×" + std::to_string(stack.grid().u) +
-                                " views from view " + view_text(stack.first()) + " on") +
-                     ", which does not cover view " + view_text(view));
-}
-
 void require_truth(const Scene& scene, ViewIndex view) {
   const GroundTruth& truth = *scene.truth;
   const std::string& name = scene.light_field->info().name;
@@ -204,7 +194,9 @@ Evaluation judge(const Estimate& estimate, const Scene& scene, EvaluationOptions
     evaluation = std::move(layers.foreground);
   } else {
     require_truth(scene, view);
-    require_view(estimate.field, view);
+    const std::string reason =
+        reason_against_view(coverage_of(estimate.field.disparity), view, "the result", "disparity");
+    if (!reason.empty()) throw InvalidInput(reason);
     const std::map<std::string, Image<std::uint8_t>> no_regions;
     const bool is_center = view == light_field.center();
     options.high_res = is_center ? truth.high_res.get() : nullptr;

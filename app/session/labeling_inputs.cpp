@@ -78,6 +78,20 @@ std::shared_ptr<const ViewStack<float>> find_edge_probabilities(const Scene& sce
       io::read_edge_probabilities(file->path, scene, progress));
 }
 
+Labeler labeler_of(const Scene& scene, const LabelingDisparity& disparity, const Progress& progress,
+                   Device device) {
+  Labeler labeler(scene.light_field, disparity.field, find_edge_probabilities(scene, progress),
+                  disparity.confidence());
+  labeler.compute_on(device);
+  return labeler;
+}
+
+LabelingScores judge_labeling(const Labeling& labeling, const Scene& scene,
+                              const LabelingDisparity& disparity, const Progress& progress) {
+  return judge_labeling(labeling.labels, scene.light_field->center(), scene.truth->labels,
+                        *scene.truth, disparity.field.get(), progress);
+}
+
 namespace {
 
 std::vector<std::int32_t> ids_of(const Scribbles& painted, int label_count) {

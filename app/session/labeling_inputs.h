@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "app/session/label_review.h"
 #include "engine/core/disparity_field.h"
 #include "engine/core/estimate.h"
 #include "engine/core/progress.h"
@@ -51,6 +52,15 @@ inline constexpr const char* kLabelingEstimator = "net";
 /// EDGE_WEIGHTS that lie beside the light field; null if there are none. Throws IoError, Cancelled.
 [[nodiscard]] std::shared_ptr<const ViewStack<float>> find_edge_probabilities(
     const Scene& scene, const Progress& progress);
+
+/// A labeler with all that is known of a scene: the disparity, how sure that is, and edges beside
+/// the light field. Throws IoError, Cancelled.
+[[nodiscard]] Labeler labeler_of(const Scene& scene, const LabelingDisparity& disparity,
+                                 const Progress& progress, Device device = Device::Auto);
+/// judge_labeling by the true labels of the scene.
+[[nodiscard]] LabelingScores judge_labeling(const Labeling& labeling, const Scene& scene,
+                                            const LabelingDisparity& disparity,
+                                            const Progress& progress);
 
 /// Label probabilities of all views from a file of the archive. Its layers are the labels of
 /// `painted` if there are as many, else 1, 2, …. Throws IoError; InvalidInput, naming the file, if

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/session/open_scene.h"
 
+#include "engine/core/text_table.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -62,52 +64,9 @@ ScenePlace within(const LightField& light_field, ScenePlace place) {
   return place;
 }
 
-namespace {
-
-std::string capture_text(CaptureWork work) {
-  for (CaptureObject& each : work.objects) each.pose.reset();
-  return work.empty() ? std::string() : capture_to_json(work, "/") + '\n';
-}
-
-std::string measured_text(const Measurements& measured) {
-  std::string text;
-  for (const EpiMeasurement& each : measured.list) {
-    text += fmt::format("line {} {} {} {} {} {} {}\n", each.name, static_cast<int>(each.direction),
-                        each.view.v, each.view.u, each.pixel.y, each.pixel.x, each.disparity_px);
-  }
-  return text;
-}
-
-std::string judged_text(const JudgedPart& judged) {
-  const PixelRect& r = judged.rectangle;
-  return fmt::format("judged {} {} {} {} {} {} {}\n", static_cast<int>(judged.pixels), r.y0, r.x0,
-                     r.y1, r.x1, judged.mask, judged.region);
-}
-
-// As RFC 4180: quotes around a text that needs them.
-std::string field(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char each : text) {
-    if (each == '"') quoted += '"';
-    quoted += each;
-  }
-  return quoted + '"';
-}
-
-}  // namespace
-
 bool has_work(const ScenePlace& place) {
   return !place.measured.list.empty() || !place.capture.empty() || place.judged != JudgedPart{} ||
          place.label_marks != LabelMarks{} || !place.tone.is_plain();
-}
-
-std::string work_text(const ScenePlace& place) {
-  const auto& [hidden, locked] = place.label_marks;
-  return capture_text(place.capture) + measured_text(place.measured) + judged_text(place.judged) +
-         fmt::format("labels {} {}\ntone {} {} {}\n", fmt::join(hidden, ","),
-                     fmt::join(locked, ","), place.tone.black, place.tone.exposure,
-                     place.tone.gamma);
 }
 
 const EpiMeasurement* current_of(const Measurements& measurements) {
@@ -123,15 +82,17 @@ std::optional<double> depth_of(const EpiMeasurement& measurement, const CameraGr
 }
 
 std::string measurements_csv(const std::vector<EpiMeasurement>& list, const CameraGrid& camera) {
-  std::string csv = "name,direction,v,u,y,x,slope_px_per_view,disparity_px,depth\n";
+  TextTable table{
+      {"name", "direction", "v", "u", "y", "x", "slope_px_per_view", "disparity_px", "depth"}, {}};
   for (const EpiMeasurement& each : list) {
     const auto depth = depth_of(each, camera);
-    csv += fmt::format("{},{},{},{},{},{},{:.4f},{:.4f},{}\n", field(each.name),
-                       each.direction == EpiDirection::Horizontal ? "row" : "column", each.view.v,
-                       each.view.u, each.pixel.y, each.pixel.x, -each.disparity_px,
-                       each.disparity_px, depth ? fmt::format("{:.6g}", *depth) : "");
+    table.rows.push_back({each.name, each.direction == EpiDirection::Horizontal ? "row" : "column",
+                          std::to_string(each.view.v), std::to_string(each.view.u),
+                          std::to_string(each.pixel.y), std::to_string(each.pixel.x),
+                          fixed_text(-each.disparity_px, 4), fixed_text(each.disparity_px, 4),
+                          depth ? fmt::format("{:.6g}", *depth) : ""});
   }
-  return csv;
+  return table_to_csv(table);
 }
 
 }  // namespace episcope

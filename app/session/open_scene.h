@@ -193,8 +193,4 @@ inline Parts operator|(Part a, Part b) {
 /// choose pixels to judge, hide or lock labels, set the brightness.
 [[nodiscard]] bool has_work(const ScenePlace& place);
 
-/// The user's work on a scene as a text, which changes whenever the work does. Poses count as what
-/// they are computed from.
-[[nodiscard]] std::string work_text(const ScenePlace& place);
-
 }  // namespace episcope

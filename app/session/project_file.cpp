@@ -449,6 +449,18 @@ Project read_project(const fs::path& path, ProjectFiles files) {
   }
 }
 
+std::string work_text(const ScenePlace& place) {
+  ScenePlace work;
+  work.tone = place.tone;
+  work.label_marks = place.label_marks;
+  work.measured.list = place.measured.list;
+  work.capture = place.capture;
+  for (CaptureObject& each : work.capture.objects) each.pose.reset();
+  return io::json_text(Json{{"place", place_json(work)},
+                            {"judged", judged_json(place.judged, "/")},
+                            {"capture", capture_to_json(work.capture, "/")}});
+}
+
 fs::path files_of_project(const fs::path& project) {
   return fs::absolute(project).lexically_normal().parent_path() /
          (project.stem().string() + "_files");

@@ -51,6 +51,10 @@ enum class ProjectFiles {
 [[nodiscard]] Project read_project(const std::filesystem::path& path,
                                    ProjectFiles files = ProjectFiles::Beside);
 
+/// The user's work on a scene (has_work) as a text, which changes whenever the work does. Poses
+/// count as what they are computed from.
+[[nodiscard]] std::string work_text(const ScenePlace& place);
+
 /// The folder beside a project file that holds its results and strokes: "name_files".
 [[nodiscard]] std::filesystem::path files_of_project(const std::filesystem::path& project);
 

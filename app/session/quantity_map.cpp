@@ -20,21 +20,6 @@ using render::Quantity;
 using render::Subject;
 using Map = std::shared_ptr<QuantityMap>;
 
-/// Which views something is known of; an empty grid = none.
-template <class T>
-ViewRectangle coverage_of(const ViewStack<T>& stack) {
-  return {stack.first(), stack.grid()};
-}
-
-/// How a quantity of a result is found in it: one row of a table.
-struct ResultMap {
-  render::Quantity quantity;
-  const char* what;  ///< In a sentence: "the result has no confidence".
-  ViewRectangle (*coverage)(const Estimate& estimate);
-  /// Precondition: the view is covered.
-  std::shared_ptr<QuantityMap> (*make)(const EstimatePtr& estimate, ViewIndex view);
-};
-
 /// A map that `owner` keeps alive.
 Map borrowed_map(const DisparityView& view, std::shared_ptr<const void> owner) {
   auto made = std::make_shared<QuantityMap>();
@@ -44,55 +29,40 @@ Map borrowed_map(const DisparityView& view, std::shared_ptr<const void> owner) {
   return made;
 }
 
-Map counted_map(ImageView<const std::uint8_t> counts) {
+Map made_map(const DisparityField& field, ViewIndex view, const EstimatePtr& owner) {
+  return borrowed_map(field.view(view), owner);
+}
+Map made_map(const ViewStack<float>& values, ViewIndex view, const EstimatePtr& owner) {
+  return borrowed_map({values.view(view), {}}, owner);
+}
+Map made_map(const ViewStack<std::uint8_t>& counts, ViewIndex view, const EstimatePtr&) {
   auto made = std::make_shared<QuantityMap>();
-  made->computed = Image<float>(counts.height, counts.width);
-  std::copy_n(counts.data, counts.size(), made->computed.data());
+  made->computed = Image<float>(counts.height(), counts.width());
+  std::copy_n(counts.view(view).data, counts.view_size(), made->computed.data());
   made->map = made->computed;
   return made;
 }
 
-constexpr ResultMap kResultMaps[] = {
-    {Quantity::Disparity, "disparity",
-     [](const Estimate& estimate) { return coverage_of(estimate.field.disparity); },
-     [](const EstimatePtr& estimate, ViewIndex view) {
-       return borrowed_map(estimate->field.view(view), estimate);
-     }},
-    {Quantity::Confidence, "confidence",
-     [](const Estimate& estimate) { return coverage_of(estimate.confidence); },
-     [](const EstimatePtr& estimate, ViewIndex view) {
-       return borrowed_map({estimate->confidence.view(view), {}}, estimate);
-     }},
-    {Quantity::Second, "second disparity",
-     [](const Estimate& estimate) { return coverage_of(estimate.second.disparity); },
-     [](const EstimatePtr& estimate, ViewIndex view) {
-       return borrowed_map(estimate->second.view(view), estimate);
-     }},
-    {Quantity::Background, "background",
-     [](const Estimate& estimate) { return coverage_of(estimate.layered.background.disparity); },
-     [](const EstimatePtr& estimate, ViewIndex view) {
-       return borrowed_map(estimate->layered.background.view(view), estimate);
-     }},
-    {Quantity::Layers, "number of layers",
-     [](const Estimate& estimate) { return coverage_of(estimate.layered.layers); },
-     [](const EstimatePtr& estimate, ViewIndex view) {
-       return counted_map(estimate->layered.layers.view(view));
-     }}};
-
-/// The row of a quantity; quantities of other subjects (render::Subject) have that of the
-/// disparity, from which they are computed.
-const ResultMap& result_map_of(Quantity quantity) {
-  const auto* found = std::ranges::find(kResultMaps, quantity, &ResultMap::quantity);
-  return found == std::end(kResultMaps) ? kResultMaps[0] : *found;
+ViewRectangle coverage_of(const DisparityField& field) {
+  return coverage_of(field.disparity);
 }
 
-std::string reason_against_view(const ViewRectangle& covered, ViewIndex view,
-                                const std::string& who, const std::string& what) {
-  if (covered.grid.count() == 0) return who + " has no " + what;
-  const ViewIndex place{view.v - covered.first.v, view.u - covered.first.u};
-  if (covered.grid.contains(place)) return {};
-  return fmt::format("{} has {}×{} views from view {} on, but view {} was asked for", who,
-                     covered.grid.v, covered.grid.u, view_text(covered.first), view_text(view));
+/// Calls `use` with the maps of a result that a quantity is found in, and their name in a sentence;
+/// quantities of other subjects (render::Subject) are computed from the disparity.
+template <class Use>
+auto with_maps_of(const Estimate& estimate, Quantity quantity, const Use& use) {
+  switch (quantity) {
+    case Quantity::Confidence:
+      return use(estimate.confidence, "confidence");
+    case Quantity::Second:
+      return use(estimate.second, "second disparity");
+    case Quantity::Background:
+      return use(estimate.layered.background, "background");
+    case Quantity::Layers:
+      return use(estimate.layered.layers, "number of layers");
+    default:
+      return use(estimate.field, "disparity");
+  }
 }
 
 std::string who_of(const Estimate& estimate) {
@@ -100,10 +70,11 @@ std::string who_of(const Estimate& estimate) {
 }
 
 std::string reason_against_result(const MapSource& source) {
-  const ResultMap& map = result_map_of(source.quantity);
   const std::string who = who_of(*source.estimate);
   std::string reason =
-      reason_against_view(map.coverage(*source.estimate), source.view, who, map.what);
+      with_maps_of(*source.estimate, source.quantity, [&](const auto& maps, const char* what) {
+        return reason_against_view(coverage_of(maps), source.view, who, what);
+      });
   if (!reason.empty() || !source.light_field) return reason;
   return reason_against_fit(who, geometry_of(source.estimate->field.disparity),
                             source.light_field->info().name, geometry_of(*source.light_field));
@@ -320,7 +291,9 @@ QuantityMapPtr make_map(const MapSource& source) {
     case Subject::TrueLabels:
       return labels_map(source);
     case Subject::Result:
-      return result_map_of(source.quantity).make(source.estimate, source.view);
+      return with_maps_of(*source.estimate, source.quantity, [&](const auto& maps, const char*) {
+        return made_map(maps, source.view, source.estimate);
+      });
     case Subject::Error:
       return error_map(source.evaluation, source);
     case Subject::ResultPair:
@@ -363,7 +336,9 @@ bool is_available(const Session& session, Quantity quantity) {
       return session.true_labels() != nullptr;
     case Subject::Result:
       return session.side_a() &&
-             result_map_of(quantity).coverage(*session.side_a()->estimate).grid.count() > 0;
+             with_maps_of(*session.side_a()->estimate, quantity, [](const auto& maps, const char*) {
+               return coverage_of(maps).grid.count() > 0;
+             });
     case Subject::Error:
       return session.side_a() && is_available_of(*scene->truth, Quantity::Truth);
     case Subject::ResultPair:

@@ -14,10 +14,11 @@
 #include "engine/io/base/json.h"
 #include "engine/io/models/result_file.h"
 #include "engine/io/models/scribble_file.h"
+#include "engine/io/open.h"
 #include "engine/labeling/labeler.h"
 
+#include <sys/stat.h>
 #include <algorithm>
-#include <cerrno>
 #include <fstream>
 #include <iterator>
 #include <optional>
@@ -29,6 +30,16 @@ namespace {
 namespace fs = std::filesystem;
 
 }  // namespace
+
+HiddenFolder::HiddenFolder(const fs::path& beside)
+    : path_(io::folder_of(beside) / io::temporary_name(beside)) {
+  if (::mkdir(path_.c_str(), S_IRWXU) != 0) throw io::write_error(beside);
+}
+
+HiddenFolder::~HiddenFolder() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
 
 bool holds_something(const fs::path& path) {
   std::error_code ignored;
@@ -142,8 +153,11 @@ bool holds_several_views(const io::Hdf5Input& file) {
 StoredRun stored_run(const fs::path& path, const std::string& group) {
   const io::Hdf5Input file(path);
   const auto text = [&](const char* name) { return file.text(group, name).value_or(""); };
-  return {text("method"), io::parameters_from_json(text("parameters")), text("source"),
-          io::reading_in(file, group), hash_from_digits(text(io::kSourcesHash)),
+  return {text("method"),
+          io::parameters_from_json(text("parameters")),
+          text("source"),
+          io::reading_in(file, group),
+          hash_from_digits(text(io::kSourcesHash)),
           holds_several_views(file)};
 }
 
@@ -165,64 +179,27 @@ std::string difference_of(const StoredRun& stored, const fs::path& path, const I
   return {};
 }
 
-void refuse_difference(const fs::path& path, const std::string& what, const std::string& difference,
-                       const std::string& how) {
-  if (difference.empty()) return;
-  throw IoError(path,
-                "exists and holds " + what + " " + difference + "; choose another name, or " + how);
-}
-
 }  // namespace
 
-void check_result_output(const fs::path& path, const IntendedRun& run, Overwrite overwrite,
-                         const std::string& how) {
+void check_made_output(const fs::path& path, const IntendedRun& run, Overwrite overwrite,
+                       const std::string& how) {
   if (!holds_something(path)) return;
-  if (!is_sound_result(path)) {
-    throw IoError(path, "exists and is not a result file; choose another name or remove it first");
+  const bool are_labels = run.method.empty();
+  if (!(are_labels ? is_sound_labeling(path) : is_sound_result(path))) {
+    throw IoError(path, std::string("exists and is not a ") +
+                            (are_labels ? "file of labels" : "result file") +
+                            "; choose another name or remove it first");
   }
   if (overwrite == Overwrite::Yes) return;
-  const StoredRun stored = stored_run(path, io::kResultGroup);
-  refuse_difference(path, "a result",
-                    difference_of(stored, path, run, find_estimator(run.method).parameters), how);
-}
-
-void check_labeling_output(const fs::path& path, const IntendedRun& run, Overwrite overwrite,
-                           const std::string& how) {
-  if (!holds_something(path)) return;
-  if (!is_sound_labeling(path)) {
-    throw IoError(path,
-                  "exists and is not a file of labels; choose another name or remove it first");
-  }
-  if (overwrite == Overwrite::Yes) return;
-  const StoredRun stored = stored_run(path, "/");
-  refuse_difference(path, "labels",
-                    difference_of(stored, path, run, labeler_schema().descriptions()), how);
+  const std::string difference = difference_of(
+      stored_run(path, are_labels ? "/" : io::kResultGroup), path, run,
+      are_labels ? labeler_schema().descriptions() : find_estimator(run.method).parameters);
+  if (difference.empty()) return;
+  throw IoError(path, std::string("exists and holds ") + (are_labels ? "labels " : "a result ") +
+                          difference + "; choose another name, or " + how);
 }
 
 namespace {
-
-/// A hidden folder beside a file, for another one of its name.
-class HiddenFolder {
- public:
-  explicit HiddenFolder(const fs::path& beside)
-      : path_(io::folder_of(beside) / io::temporary_name(beside)) {
-    std::error_code error;
-    if (fs::create_directory(path_, error)) return;
-    errno = error.value();
-    throw io::write_error(beside);
-  }
-  ~HiddenFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  HiddenFolder(const HiddenFolder&) = delete;
-  HiddenFolder& operator=(const HiddenFolder&) = delete;
-
-  [[nodiscard]] const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 bool has_same_bytes(const fs::path& a, const fs::path& b) {
   std::error_code error;
@@ -235,8 +212,14 @@ bool has_same_bytes(const fs::path& a, const fs::path& b) {
 
 }  // namespace
 
+void protect_light_field(const fs::path& path) {
+  if (!holds_something(path) || !io::is_part_of_light_field(path)) return;
+  throw IoError(path, "is part of a light field, which is not replaced; choose another name");
+}
+
 void write_output(const fs::path& path, Overwrite overwrite,
                   const std::function<void(const fs::path&)>& write, const std::string& how) {
+  if (overwrite == Overwrite::Yes) protect_light_field(path);
   if (overwrite == Overwrite::Yes || !holds_something(path)) return write(path);
   const HiddenFolder hidden(path);
   const fs::path fresh = hidden.path() / path.filename();

@@ -11,6 +11,21 @@
 
 namespace episcope {
 
+/// A hidden folder beside a path, which others cannot read and which goes with this object.
+class HiddenFolder {
+ public:
+  /// Throws IoError that names `beside`.
+  explicit HiddenFolder(const std::filesystem::path& beside);
+  ~HiddenFolder();
+  HiddenFolder(const HiddenFolder&) = delete;
+  HiddenFolder& operator=(const HiddenFolder&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
 /// Whether a file that is there may be replaced.
 enum class Overwrite { No, Yes };
 
@@ -33,21 +48,21 @@ struct IntendedRun {
   bool is_of_one_view = false;  ///< Of a result, which must not replace one of several views.
 };
 
-/// Refuses to replace anything but a result file, and one of another method, other parameters,
-/// another light field, another reading of it or more views unless that is asked for. Parameters
-/// that the file does not know count as their default. Throws IoError, which says `how` to ask for
-/// it.
-void check_result_output(const std::filesystem::path& path, const IntendedRun& run,
-                         Overwrite overwrite, const std::string& how = kByOption);
+/// Refuses to replace anything but a result file, or labels that `label` wrote, and one of another
+/// method, other parameters, another light field, another reading of it or more views unless that
+/// is asked for. Parameters that the file does not know count as their default. Throws IoError,
+/// which says `how` to ask for it.
+void check_made_output(const std::filesystem::path& path, const IntendedRun& run,
+                       Overwrite overwrite, const std::string& how = kByOption);
 
-/// Refuses to replace anything but a file of labels that `label` wrote, and one as above. Throws
-/// IoError, which says `how` to ask for it.
-void check_labeling_output(const std::filesystem::path& path, const IntendedRun& run,
-                           Overwrite overwrite, const std::string& how = kByOption);
+/// Refuses to write over what a light field is read from: a view, its ground truth, or itself.
+/// Throws IoError.
+void protect_light_field(const std::filesystem::path& path);
 
 /// Writes a file by `write`, to which it passes the path. Unless `overwrite` says otherwise, a file
 /// that is there stays: one of the same bytes as it is, one of others makes this throw IoError,
-/// which says `how` to ask for it. For forms that do not tell what they were made by.
+/// which says `how` to ask for it. For forms that do not tell what they were made by. Throws as
+/// `protect_light_field`.
 void write_output(const std::filesystem::path& path, Overwrite overwrite,
                   const std::function<void(const std::filesystem::path&)>& write,
                   const std::string& how = kByOption);

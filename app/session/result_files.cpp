@@ -7,6 +7,7 @@
 #include "app/session/scene_summary.h"
 #include "engine/core/disparity_field.h"
 #include "engine/core/error.h"
+#include "engine/core/finding.h"
 #include "engine/core/hash.h"
 #include "engine/core/shear.h"
 #include "engine/core/text.h"
@@ -32,6 +33,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 #include <iterator>
 #include <limits>
 #include <utility>
@@ -180,6 +182,38 @@ bool names_light_field_only(const std::string& path) {
   return !builtin_scene_id(path).empty() || io::is_folder(path) || is_hdf5_light_field(path);
 }
 
+namespace {
+
+bool are_same(const DisparityField& a, const DisparityField& b) {
+  const auto has_same = [](const auto& one, const auto& other) {
+    return one.size() == other.size() &&
+           std::memcmp(one.data(), other.data(), one.size() * sizeof(*one.data())) == 0;
+  };
+  return a.disparity.height() == b.disparity.height() && has_same(a.disparity, b.disparity) &&
+         has_same(a.valid, b.valid);
+}
+
+/// Notes options that change nothing: the maps are read again without each.
+void note_unused_options(const LightField& light_field, const fs::path& path,
+                         const io::MapReading& reading, Estimate& estimate) {
+  const ParameterSet given = io::given_options(reading);
+  for (const auto& option : given) {
+    ParameterSet others = given;
+    std::erase(others, option);
+    try {
+      const Estimate without = read_result_of(light_field, path, io::map_schema().parse(others));
+      if (!are_same(without.field, estimate.field) || without.border_px != estimate.border_px) {
+        continue;
+      }
+      estimate.notes.push_back(fmt::format(finding_text("option.unused"), option.first));
+    } catch (const Error&) {
+      continue;  // it cannot be read without
+    }
+  }
+}
+
+}  // namespace
+
 Estimate read_result_of(const LightField& light_field, const fs::path& path,
                         const io::MapReading& reading) {
   if (io::is_segmentation_file(path)) {
@@ -196,6 +230,7 @@ Estimate read_result_of(const LightField& light_field, const fs::path& path,
   require_no_padding(estimate, light_field, path);
   if (!io::is_result_file(path) && estimate.border_px == 0) find_border_of(estimate, light_field);
   check_fits(estimate, light_field, path.string());
+  note_unused_options(light_field, path, reading, estimate);
   return estimate;
 }
 
@@ -380,21 +415,33 @@ void save_result(const std::filesystem::path& path, const Estimate& estimate,
 namespace {
 
 template <class T>
-ViewStack<T> only_view(const ViewStack<T>& maps, ViewIndex view) {
-  if (maps.empty()) return {};
-  ViewStack<T> only({1, 1}, maps.height(), maps.width(), 1, view);
-  std::copy_n(maps.view(view).data, only.size(), only.data());
-  return only;
+ViewStack<T> one_view(const ViewStack<T>& stack, ViewIndex view) {
+  if (stack.empty() || !stack.contains(view)) return {};
+  ViewStack<T> one({1, 1}, stack.height(), stack.width(), stack.channels(), view);
+  std::copy_n(stack.view(view).data, one.size(), one.data());
+  return one;
+}
+
+DisparityField one_view(const DisparityField& field, ViewIndex view) {
+  return {one_view(field.disparity, view), one_view(field.valid, view)};
 }
 
 }  // namespace
 
-void save_map(const fs::path& path, const Estimate& estimate, ViewIndex view) {
+Estimate one_view(const Estimate& estimate, ViewIndex view) {
   Estimate one;
-  one.field = {only_view(estimate.field.disparity, view), only_view(estimate.field.valid, view)};
-  one.confidence = only_view(estimate.confidence, view);
-  one.second = {only_view(estimate.second.disparity, view), only_view(estimate.second.valid, view)};
-  save_maps(path, one);
+  one.set_provenance(estimate.provenance());
+  one.field = one_view(estimate.field, view);
+  one.confidence = one_view(estimate.confidence, view);
+  one.second = one_view(estimate.second, view);
+  one.layered.foreground = one_view(estimate.layered.foreground, view);
+  one.layered.background = one_view(estimate.layered.background, view);
+  one.layered.layers = one_view(estimate.layered.layers, view);
+  return one;
+}
+
+void save_map(const fs::path& path, const Estimate& estimate, ViewIndex view) {
+  save_maps(path, one_view(estimate, view));
 }
 
 void save_maps(const fs::path& path, const Estimate& estimate) {

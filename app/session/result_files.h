@@ -118,6 +118,9 @@ enum class MapForm {
 void save_result(const std::filesystem::path& path, const Estimate& estimate,
                  const std::string& input, const Progress& progress);
 
+/// A result with all that it has of one view, and nothing of others.
+[[nodiscard]] Estimate one_view(const Estimate& estimate, ViewIndex view);
+
 /// Writes the maps of one view as the suffix says, else as TIFF: disparity, NaN where it is
 /// invalid, and in forms of several arrays what the result has beside it. Atomic. Throws IoError.
 /// Precondition: the result has that view.

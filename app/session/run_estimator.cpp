@@ -36,8 +36,18 @@ std::string range_warning(const Estimate& estimate) {
   return doubted == estimate.notes.end() ? std::string() : *doubted;
 }
 
-void add_date(Provenance& estimate) {
+/// Adds the date, and a note where less was searched than the light field states.
+void complete(const LightField& lf, Provenance& estimate) {
+  constexpr double kRounding = 1e-3;  // px
   estimate.date = fmt::format("{:%FT%TZ}", fmt::gmtime(std::time(nullptr)));
+  const auto& stated = lf.info().disparity_range;
+  const Interval& searched = estimate.range;
+  if (!stated ||
+      (searched.min <= stated->min + kRounding && searched.max >= stated->max - kRounding)) {
+    return;
+  }
+  estimate.notes.push_back(fmt::format(finding_text("range.stated"), searched.min, searched.max,
+                                       stated->min, stated->max));
 }
 
 }  // namespace
@@ -53,7 +63,7 @@ FinishedEstimate run_estimator(const Scene& scene, const Estimator& estimator,
   auto estimate = std::make_shared<Estimate>(
       estimator.run(light_field, *scene.even, parameters, options, progress.part(0, 0.95)));
   estimate->source_hash = light_field.sample_hash();
-  add_date(*estimate);
+  complete(light_field, *estimate);
   if (progress.finish_requested() && estimator.info.iterative) {
     estimate->notes.push_back(kTakenEarly);
   }
@@ -168,7 +178,7 @@ FinishedBlocks run_in_blocks(const LightField& lf, const Estimator& estimator,
   DraftStore store(draft, lf.info().source);
   FinishedBlocks finished{{}, run.maps, remark_on(draft, request.output)};
   finished.provenance = run_blocks(lf, run, store, memory, limited.part(0.06, 1));
-  add_date(finished.provenance);
+  complete(lf, finished.provenance);
   draft.commit(finished.provenance, source_text(request.input, request.output));
   return finished;
 }

@@ -38,22 +38,24 @@ struct Spread {
 };
 
 SceneSummary::Truth summarize_truth(const DisparityField& field, const LightField& light_field) {
-  Spread all;
+  const MapSummary all = summarize(field);
+  SceneSummary::Truth truth{
+      covered_views(field.disparity, light_field), all.valid_percent, {}, all.range};
   Spread center;
-  const auto& stack = field.disparity;
-  for (int v = 0; v < stack.grid().v; ++v) {
-    for (int u = 0; u < stack.grid().u; ++u) {
-      const ViewIndex view{stack.first().v + v, stack.first().u + u};
-      all.add(field.view(view));
-      if (view == light_field.center()) center.add(field.view(view));
-    }
-  }
-  return {covered_views(stack, light_field),
-          100.0 * static_cast<double>(all.valid) / static_cast<double>(stack.size()),
-          center.valid > 0 ? std::optional(center.interval()) : std::nullopt, all.interval()};
+  if (field.contains(light_field.center())) center.add(field.view(light_field.center()));
+  if (center.valid > 0) truth.center = center.interval();
+  return truth;
 }
 
 }  // namespace
+
+MapSummary summarize(const DisparityField& field) {
+  Spread all;
+  const ViewStack<float>& maps = field.disparity;
+  for (int i = 0; i < maps.grid().count(); ++i) all.add(field.view(maps.view_at(i)));
+  return {all.interval(),
+          100.0 * static_cast<double>(all.valid) / static_cast<double>(maps.size())};
+}
 
 std::size_t collect_ids(std::span<const std::int32_t> labels, std::vector<int>& ids) {
   std::set<int> found(ids.begin(), ids.end());

@@ -34,6 +34,13 @@ struct SceneSummary {
 
 [[nodiscard]] SceneSummary summarize(const Scene& scene);
 
+/// Range and share of the valid values of maps.
+struct MapSummary {
+  Interval range{};  ///< {0, 0} if none is valid.
+  double valid_percent = 0;
+};
+[[nodiscard]] MapSummary summarize(const DisparityField& field);
+
 /// How samples were stored, and what estimators see of them.
 [[nodiscard]] std::string samples_text(const Scene& scene);
 

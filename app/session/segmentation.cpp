@@ -3,12 +3,15 @@
 
 #include "annotation/exchange.h"
 #include "app/session/result_files.h"
+#include "app/session/result_fit.h"
 #include "app/session/user_folders.h"
 #include "engine/core/error.h"
 #include "engine/core/hash.h"
 #include "engine/io/base/atomic_file.h"
 #include "engine/io/base/files.h"
+#include "engine/io/base/hdf5_file.h"
 #include "engine/io/base/image_file.h"
+#include "engine/io/base/json.h"
 #include "engine/io/formats/archive_companions.h"
 #include "engine/io/models/scribble_file.h"
 #include "engine/labeling/label_review.h"
@@ -101,10 +104,9 @@ ViewIndex checked_view(const io::SegmentationFile& file, const std::string& name
   const ViewIndex middle = file.grid().center();
   const ViewIndex view =
       asked.value_or(ViewIndex{file.first().v + middle.v, file.first().u + middle.u});
-  if (file.contains(view)) return view;
-  throw InvalidInput(name + " has labels of " + std::to_string(file.grid().v) + "×" +
-                     std::to_string(file.grid().u) + " views from view " + view_text(file.first()) +
-                     " on, but view " + view_text(view) + " was asked for");
+  const std::string reason = reason_against_view({file.first(), file.grid()}, view, name, "labels");
+  if (reason.empty()) return view;
+  throw InvalidInput(reason);
 }
 
 }  // namespace
@@ -141,6 +143,19 @@ Segmentation read_segmentation(const std::filesystem::path& path, std::optional<
     probabilities.views.push_back(io::bytes_of(file.probabilities(view)));
   }
   return {std::move(labeling), file.infos(), {}, file.reading()};
+}
+
+Provenance labels_provenance(const std::filesystem::path& path) {
+  const io::SegmentationFile labels(path);
+  const io::Hdf5Input attributes(path);
+  Provenance made;
+  made.method = "label";
+  made.parameters = io::parameters_from_json(attributes.text("/", "parameters").value_or(""));
+  made.seconds = attributes.number("/", "seconds").value_or(0);
+  made.version = attributes.text("/", "version").value_or("");
+  made.source = labels.source();
+  made.reading = labels.reading();
+  return made;
 }
 
 LabelingPtr read_archive_probabilities(const Scene& scene, ViewIndex view) {

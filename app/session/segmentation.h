@@ -110,6 +110,10 @@ void write_segmentation(const std::filesystem::path& path, const Segmentation& s
 [[nodiscard]] Segmentation read_segmentation(const std::filesystem::path& path,
                                              std::optional<ViewIndex> view);
 
+/// What a file of labels says of the run that made it: method "label", parameters, seconds,
+/// version, source and reading. Throws IoError.
+[[nodiscard]] Provenance labels_provenance(const std::filesystem::path& path);
+
 /// A view of the first file of label probabilities of the archive that lies beside the light field;
 /// its labels count from 1. Throws InvalidInput, naming the light field, if there is no such file
 /// or view, IoError.

@@ -20,8 +20,8 @@ namespace episcope {
 
 /// The scenes that are open, one of which is shown, and what is known about them: estimates,
 /// evaluations, the current view and pixel. Unless said otherwise, functions are about the scene
-/// that is shown. Belongs to one thread. Changes are collected and reported once per turn of that
-/// thread's event loop.
+/// that is shown; unknown ids are ignored. Belongs to one thread. Changes are collected and
+/// reported once per turn of that thread's event loop.
 class Session {
  public:
   using Listener = std::function<void(Parts)>;
@@ -54,7 +54,7 @@ class Session {
   void unload(std::uint64_t id);
   /// Brings back what `unload` released, or what `add_aside` came without: the scene, and estimates
   /// by id. Entries without an estimate move to `OpenScene::unread`, and a place outside the scene
-  /// moves into it. Ignored for an unknown scene.
+  /// moves into it.
   void load(std::uint64_t id, std::shared_ptr<const Scene> scene,
             const std::map<int, EstimatePtr>& estimates);
   /// Closes a scene that is set aside.
@@ -64,8 +64,7 @@ class Session {
   void set_input(std::uint64_t id, std::string input);
   /// Notes that strokes of its project cannot be taken over and stay where they are.
   void set_unread_strokes(std::uint64_t id, std::filesystem::path file);
-  /// Notes the file that keeps an estimate of any open scene for the project. Unknown ids are
-  /// ignored.
+  /// Notes the file that keeps an estimate of any open scene for the project.
   void set_kept(int estimate, const std::filesystem::path& file);
 
   /// Null if nothing is shown.
@@ -83,7 +82,7 @@ class Session {
   /// id, or 0 if that scene was closed: the estimate is dropped.
   int add_estimate(EstimatePtr estimate, Interval display_range, std::uint64_t generation,
                    bool stays_aside = false);
-  /// Shows the neighbor if the removed one was shown. Unknown ids are ignored.
+  /// Shows the neighbor if the removed one was shown.
   void remove_estimate(int id);
   /// Brings back a removed entry, with its id, at its former place in the list, and shows it. Its
   /// name gets a number if it was given away meanwhile.
@@ -91,28 +90,28 @@ class Session {
   /// Of any open scene. Unknown ids and empty names are ignored; a name that is taken there gets a
   /// number.
   void rename_estimate(int id, const std::string& name);
-  /// What the user writes about an estimate of any open scene. Unknown ids are ignored.
+  /// What the user writes about an estimate of any open scene.
   void set_note(int id, const std::string& note);
-  /// Notes the file of an estimate that belongs to another light field. Unknown ids are ignored.
+  /// Notes the file of an estimate that belongs to another light field.
   void set_foreign_file(int id, const std::filesystem::path& file);
-  /// Notes that a file of the user's holds an estimate of any open scene. Unknown ids are ignored.
+  /// Notes that a file of the user's holds an estimate of any open scene.
   void mark_saved(int id);
-  /// Marks a result of the scene in front that came unseen, until `see`. Unknown ids are ignored.
+  /// Marks a result of the scene in front that came unseen, until `see`.
   void mark_new(int id);
-  /// Notes that a result of the scene in front was looked at. Unknown ids are ignored.
+  /// Notes that a result of the scene in front was looked at.
   void see(int id);
   [[nodiscard]] const std::vector<EstimateEntry>& estimates() const { return now_->estimates; }
   /// Among them, or the live one; else null.
   [[nodiscard]] const EstimateEntry* find_estimate(int id) const;
 
-  /// Unknown ids are ignored. Showing the compared estimate swaps the two.
+  /// Showing the compared estimate swaps the two.
   void show_estimate(int id);
   /// Shows an estimate that was opened for itself, but not in place of one that is beside another.
   void show_opened_estimate(int id);
   /// The shown estimate, else null.
   [[nodiscard]] const EstimateEntry* shown() const { return find_estimate(now_->shown); }
   /// Chooses what the shown estimate is compared with; it stays until another one is chosen, it is
-  /// shown itself or removed. Unknown ids are ignored. Comparing the shown one swaps the two.
+  /// shown itself or removed. Comparing the shown one swaps the two.
   void compare_with(int id);
   /// The estimate to compare with: the one chosen, else the one shown before, else any other that
   /// is not new; null if there is no other.
@@ -200,13 +199,13 @@ class Session {
   void set_capture(const CaptureWork& work) {
     if (now_->scene) set_capture(now_->id, work);
   }
-  /// Sets the work of any open scene. Unknown scenes are ignored.
+  /// Sets the work of any open scene.
   void set_capture(std::uint64_t scene, const CaptureWork& work);
-  /// Sets which pixels metrics of an open scene cover. Ignored for an unknown one.
+  /// Sets which pixels metrics of an open scene cover.
   void set_judged(std::uint64_t scene, const JudgedPart& part);
 
   /// Notes the disparity of all views that was estimated for the labels of an open scene; it stays
-  /// in memory with the scene. Unknown scenes are ignored.
+  /// in memory with the scene.
   void set_label_disparity(std::uint64_t scene, std::shared_ptr<const DisparityField> field);
   /// Null if there is none.
   [[nodiscard]] const std::shared_ptr<const DisparityField>& label_disparity() const {
@@ -216,7 +215,7 @@ class Session {
   /// else `label_disparity`; null if none has that view.
   [[nodiscard]] std::shared_ptr<const DisparityField> known_disparity(ViewIndex view) const;
 
-  /// Keeps a segmentation with an open scene, in the place of another. Unknown scenes are ignored.
+  /// Keeps a segmentation with an open scene, in the place of another.
   void set_labels(std::uint64_t scene, KeptLabels labels);
   /// Notes the file that keeps it for the project; ignored if another one is kept meanwhile.
   void set_labels_file(std::uint64_t scene, const LabelingPtr& labeling,

@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 #include <unistd.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdlib>
@@ -61,24 +62,13 @@ bool is_ascii(char c) {
   return static_cast<unsigned char>(c) < 0x80;
 }
 
-/// Bytes of the character that begins with this one in UTF-8; 0 if none does.
-std::size_t length_of_character(char first) {
-  const auto code = static_cast<unsigned char>(first);
-  if (is_ascii(first)) return 1;
-  if (code >= 0xC2 && code < 0xE0) return 2;
-  if (code >= 0xE0 && code < 0xF0) return 3;
-  return code >= 0xF0 && code < 0xF5 ? 4 : 0;
-}
-
-bool is_utf8(std::string_view text) {
-  while (!text.empty()) {
-    const std::size_t length = length_of_character(text.front());
-    if (length == 0 || length > text.size()) return false;
-    const std::string_view rest = text.substr(1, length - 1);
-    if (!std::ranges::all_of(rest, continues_character)) return false;
-    text.remove_prefix(length);
+bool is_utf8(const std::string& text) {
+  try {
+    (void)nlohmann::json(text).dump();
+    return true;
+  } catch (const nlohmann::json::exception&) {
+    return false;
   }
-  return true;
 }
 
 std::filesystem::path user_folder(const char* variable, const char* below_home) {

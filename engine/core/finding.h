@@ -54,6 +54,9 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
     {"cap", "matching cost capped at ε = {:.3f}"},
     // Ranges of disparity.
     {"range.found", "disparity range {:.2f} … {:.2f} px, found from the images"},
+    {"range.stated",
+     "The range searched, {:.2f} … {:.2f} px, does not hold all of the range that the light field "
+     "states, {:.2f} … {:.2f} px"},
     {"range.elsewhere",
      "Nothing matches at disparities of {:.2f} … {:.2f} px: the images show {:.2f} … {:.2f} px; "
      "the range auto searches those",
@@ -293,6 +296,7 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
      "{:.3f} px off the map of the center view on the average, as stored {:.3f} px"},
     {"truth.views_jumps", "the disparity jumps by {:.2f} px at their edges, as stored by {:.2f}"},
     {"truth.views_contrast", "contrast at their edges {:.2f} grey levels, as stored {:.2f}"},
+    {"labels.estimated", "The labels of this file are no ground truth: they were {}."},
     {"truth.estimated", "The depth of this file is no ground truth: it was {}.",
      "The depth of this file was estimated."},
     // Depth and its camera.
@@ -567,6 +571,8 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
      "This container of a Lytro camera holds processed pictures, without what the sensor saw: {}. "
      "They are no views of a light field; episcope-cli decode writes them as files.",
      "Processed pictures, no light field: %1", FindingLevel::Note},
+    {"option.unused", "--{} has no effect on this map."},
+    {"labels.colors_first", "A first label of 0 has no effect on colors, which are no numbers."},
     {"option.ignored", "--{} is ignored, because this is {}.", "“%1” is ignored."},
     {"scribbles.unread", "Scribbles were not read: {}"},
     {"render.part",

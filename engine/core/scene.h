@@ -88,6 +88,8 @@ struct GroundTruth {
   StratifiedScene stratified = StratifiedScene::None;
   /// How the disparity was estimated, if it is a result that took the place of truth.
   std::optional<Provenance> estimated{};
+  /// How the labels were computed, likewise.
+  std::optional<Provenance> labels_estimated{};
 
   [[nodiscard]] bool has_disparity() const { return !field.empty(); }
   [[nodiscard]] bool has_layers() const { return !foreground.empty() && !background.empty(); }

@@ -15,6 +15,7 @@
 #include "engine/io/formats/mosaic_layout.h"
 #include "engine/io/formats/mosaic_reader.h"
 #include "engine/io/formats/sequence_reader.h"
+#include "engine/io/models/names/grid_names.h"
 #include "engine/io/models/names/view_folders.h"
 #include "engine/io/models/reader.h"
 #include "engine/io/models/scribble_file.h"
@@ -156,6 +157,23 @@ bool reads_as_truth(const fs::path& map, const fs::path& input) {
   const SceneFiles own({scene}, light_fields_beside(input), may_be_only);
   const fs::path folder = input.has_parent_path() ? input.parent_path() : fs::path(".");
   return is_found_as_truth(map, folder, own);
+}
+
+bool is_part_of_light_field(const fs::path& file) {
+  try {
+    const fs::path folder = folder_of(file);
+    const std::string suffix = suffix_of(file);
+    const bool is_array = suffix == ".npy" || suffix == ".npz" || suffix == ".mat";
+    if (is_array && find_reader(file, {}).path == file) return true;
+    const fs::path found = find_reader(folder, {}).path;
+    if (found.empty()) return false;
+    if (reads_as_truth(file, found)) return true;
+    const auto is_file = [&](const fs::path& each) { return each.filename() == file.filename(); };
+    return is_image_name(file) && fs::is_directory(found) &&
+           std::ranges::none_of(name_grid(folder, {}).left_out, is_file);
+  } catch (const Error&) {
+    return false;
+  }
 }
 
 }  // namespace episcope::io

@@ -289,6 +289,10 @@ std::vector<std::string> unsupported_parts(const Writer& writer, const Scene& sc
   losses.compare(truth.high_res != nullptr, false, "ground truth in high resolution");
   losses.compare(truth.estimated && holds.disparity != MapsHeld::None, holds.has_origin,
                  "facts on how disparities were estimated, which read as ground truth then");
+  // The archive form alone holds both.
+  losses.compare(truth.labels_estimated && holds.labels != MapsHeld::None,
+                 holds.has_origin && holds.has_scribbles,
+                 "facts on how labels were computed, which read as ground truth then");
   losses.compare(!scene.scribbles.empty(), holds.has_scribbles, "scribbles");
   losses.compare(!field.valid().empty(), holds.has_valid, "masks of valid pixels");
   return losses.take();

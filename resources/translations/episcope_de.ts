@@ -2264,6 +2264,22 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>%1: %2 % der Pixel haben keinen Wert und zählen als die fernste wahre Disparität, %3 px: Es gibt kein anderes Pixel</translation>
     </message>
     <message>
+        <source>--%1 has no effect on this map.</source>
+        <translation>--%1 ändert an dieser Karte nichts.</translation>
+    </message>
+    <message>
+        <source>A first label of 0 has no effect on colors, which are no numbers.</source>
+        <translation>Ein erstes Label 0 ändert an Farben nichts, denn sie sind keine Zahlen.</translation>
+    </message>
+    <message>
+        <source>The range searched, %1 … %2 px, does not hold all of the range that the light field states, %3 … %4 px</source>
+        <translation>Der durchsuchte Bereich, %1 … %2 px, enthält nicht den ganzen Bereich, den das Lichtfeld angibt, %3 … %4 px</translation>
+    </message>
+    <message>
+        <source>The labels of this file are no ground truth: they were %1.</source>
+        <translation>Die Labels dieser Datei sind keine Referenz: %1.</translation>
+    </message>
+    <message>
         <source>--%1 is ignored, because this is %2.</source>
         <translation>--%1 wird nicht verwendet, denn dies ist %2.</translation>
     </message>

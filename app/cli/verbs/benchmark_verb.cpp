@@ -80,33 +80,14 @@ std::vector<E> all_values() {
   return values;
 }
 
-/// Estimators by their ids, each once.
-std::vector<Estimator> methods_named(const std::string& list) {
-  if (list == "all") return registered_estimators();
-  std::vector<Estimator> chosen;
-  std::istringstream names(list);
-  for (std::string name; std::getline(names, name, ',');) {
-    const Estimator* const known = known_estimator(name);
-    if (known == nullptr) throw unknown_name("method", name, estimator_ids());
-    const auto is_same = [&](const Estimator& each) { return each.info.id == known->info.id; };
-    if (std::none_of(chosen.begin(), chosen.end(), is_same)) chosen.push_back(*known);
-  }
-  if (chosen.empty()) throw UsageError("--methods is empty; name ids of methods, or all");
-  return chosen;
-}
-
 /// Several values by their names, each once.
 template <NamedEnum E>
 OptionValue<std::vector<E>> values_value(const char* name) {
-  return {name, [](const std::string&, const std::string& text) {
+  return {name, [name](const std::string& option, const std::string& text) {
+            const OptionValue<E> known = choice_of<E>();
             std::vector<E> chosen;
-            std::istringstream names(text);
-            for (std::string each; std::getline(names, each, ',');) {
-              const std::vector<std::string> known = all_names<E>();
-              if (std::ranges::find(known, each) == known.end()) {
-                throw unknown_name("choice", each, known);
-              }
-              const E value = value_named<E>(each);
+            for (const std::string& each : words_value(name).read(option, text)) {
+              const E value = known.read(option, each);
               if (std::ranges::find(chosen, value) == chosen.end()) chosen.push_back(value);
             }
             return chosen;
@@ -114,8 +95,10 @@ OptionValue<std::vector<E>> values_value(const char* name) {
 }
 
 OptionValue<std::vector<Estimator>> methods_value() {
-  return {"ID,...",
-          [](const std::string&, const std::string& text) { return methods_named(text); }};
+  return {"ID,...", [](const std::string& option, const std::string& text) {
+            return text == "all" ? registered_estimators()
+                                 : methods_named(words_value("ID,...").read(option, text));
+          }};
 }
 
 ParameterDescription profile_description() {
@@ -383,8 +366,7 @@ SceneLoader scene_loader(const BenchmarkRequest& request, Job& job) {
     throw IoError(*request.scribbles, "is not a folder; name one that holds NAME.h5 for scenes");
   }
   return [&request, &job](const std::string& input, const Progress& progress) {
-    Scene scene = load_input(input, request.read, progress);
-    for (const auto& warning : scene.convention.warnings) job.note(warning);
+    Scene scene = load_input(input, request.read, job, progress);
     take_scribbles(request, scene, job, progress.part(1, 1));
     return scene;
   };

@@ -207,10 +207,7 @@ ConvertSubject load_subject(const ConvertRequest& request, const Target& target,
   }
   if (subject.scene) check_fits(*subject.estimate, *subject.scene->light_field, request.input);
   if (target.needs_scene() && !subject.scene) {
-    const std::string& named = subject.estimate->source;
-    constexpr const char* kRemedy = "; name it with --truth INPUT";
-    if (named.empty()) throw UsageError(request.input + " names no light field" + kRemedy);
-    throw IoError(request.input, "its light field, " + named + ", is not there" + kRemedy);
+    fail_without_source(request.input, subject.estimate->source);
   }
   return subject;
 }
@@ -223,7 +220,7 @@ void take_truth(ConvertSubject& subject) {
 }
 
 /// The scene to write; the disparity of a result takes the place of the truth.
-Scene scene_to_write(ConvertSubject& subject, const std::string& output) {
+Scene scene_to_write(ConvertSubject& subject, const std::filesystem::path& file) {
   Scene scene = std::move(*subject.scene);
   if (!subject.estimate) return scene;
   auto truth = std::make_shared<GroundTruth>();
@@ -233,12 +230,21 @@ Scene scene_to_write(ConvertSubject& subject, const std::string& output) {
   if (!scene.truth->labels.empty()) truth->labels = scene.truth->labels.clone();
   truth->regions = scene.truth->regions;
   truth->estimated = subject.estimate->provenance();
-  truth->estimated->source = source_text(subject.source, output);
+  truth->estimated->source = source_text(subject.source, file);
   scene.truth = truth;
   return scene;
 }
 
-GroundTruthPtr with_labels(const GroundTruth& truth, ViewStack<std::int32_t> labels) {
+/// How a file of labels was computed; nothing of one that another program wrote.
+std::optional<Provenance> origin_of(const std::string& labels, const std::filesystem::path& file) {
+  if (labels.empty() || !io::is_segmentation_file(labels)) return std::nullopt;
+  Provenance origin = labels_provenance(labels);
+  origin.source = source_text(existing_source(origin.source, labels), file);
+  return origin;
+}
+
+GroundTruthPtr with_labels(const GroundTruth& truth, ViewStack<std::int32_t> labels,
+                           std::optional<Provenance> origin) {
   auto changed = std::make_shared<GroundTruth>();
   changed->field = truth.field.clone();
   changed->foreground = truth.foreground.clone();
@@ -248,6 +254,7 @@ GroundTruthPtr with_labels(const GroundTruth& truth, ViewStack<std::int32_t> lab
   changed->high_res = truth.high_res;
   changed->stratified = truth.stratified;
   changed->estimated = truth.estimated;
+  changed->labels_estimated = std::move(origin);
   return changed;
 }
 
@@ -257,10 +264,6 @@ ViewStack<std::int32_t> given_labels(Scene& scene, const ConvertRequest& request
   if (request.labels.file.empty()) return {};
   const LightField& field = *scene.light_field;
   Scribbles labels = load_labels(request.labels, scene, job, progress);
-  if (io::is_segmentation_file(request.labels.file)) {
-    job.note(request.labels.file + " holds computed labels, which read as ground truth in " +
-             request.output);
-  }
   auto maps = io::stack_of(labels, {field.grid(), field.height(), field.width()});
   if (!labels.labels.empty()) scene.scribbles.labels = std::move(labels.labels);
   return maps;
@@ -297,9 +300,15 @@ std::filesystem::path write(ConvertSubject& subject, const ConvertRequest& reque
     write_map(subject, request, target.map);
     return {};
   }
-  Scene scene = scene_to_write(subject, request.output);
+  // What is named in a file of the folder is relative to that.
+  const std::filesystem::path file = target.writer->writes_folder()
+                                         ? std::filesystem::path(request.output) / "parameters.cfg"
+                                         : std::filesystem::path(request.output);
+  Scene scene = scene_to_write(subject, file);
   auto given = given_labels(scene, request, job, progress.part(0, 0.2));
-  if (!given.empty()) scene.truth = with_labels(*scene.truth, std::move(given));
+  if (!given.empty()) {
+    scene.truth = with_labels(*scene.truth, std::move(given), origin_of(request.labels.file, file));
+  }
   for (const std::string& sentence : io::unsupported_parts(*target.writer, scene))
     job.note(sentence);
   note_missing_tiles(*target.writer, request.output, *scene.light_field, job);
@@ -344,29 +353,23 @@ void note_forgotten_options(const ConvertSubject& subject, const ConvertRequest&
 }
 
 void check_output(const ConvertRequest& request, const Target& target) {
-  if (request.views && target.writer) {
-    throw UsageError(
-        "convert: --views has no effect on a light field, which keeps all; leave it out, "
-        "or add --to map");
-  }
-  if (request.views == ViewSelection::All && !holds_all_views(target.map)) {
-    throw UsageError(request.output +
-                     " holds the map of one view; leave out --views, or name it OUT.npy");
-  }
+  const auto refuse = [&](bool is_wrong, const std::string& why, const char* remedy) {
+    if (is_wrong) {
+      throw UsageError(why + ", but the output is " + request.output + "; leave it out, or " +
+                       remedy);
+    }
+  };
   const bool is_map = !target.writer && target.map != MapForm::PointCloud;
-  if (request.values == io::MapValues::Depth && !is_map) {
-    throw UsageError("--values depth is for a map (.pfm, .tiff, .npy), but the output is " +
-                     request.output + "; leave it out, or name a map");
-  }
-  if (!request.labels.file.empty() && !target.writer) {
-    throw UsageError("--labels is for a light field, but the output is the map " + request.output +
-                     "; leave it out, or name a light field");
-  }
   const bool is_archive = target.writer && std::string(target.writer->id) == "archive";
-  if (request.has_disparity && !is_archive) {
-    throw UsageError("--gt-disparity is for the archive form, but the output is " + request.output +
-                     "; name it OUT.h5, or leave it out");
-  }
+  refuse(request.views && target.writer, "--views has no effect on a light field", "add --to map");
+  refuse(request.views == ViewSelection::All && !holds_all_views(target.map),
+         "--views all is for a form of several maps", "name it OUT.npy");
+  refuse(request.values == io::MapValues::Depth && !is_map,
+         "--values depth is for a map (.pfm, .tiff, .npy)", "name a map");
+  refuse(!request.labels.file.empty() && !target.writer, "--labels is for a light field",
+         "name a light field");
+  refuse(request.has_disparity && !is_archive, "--gt-disparity is for the archive form",
+         "name it OUT.h5");
   const bool is_folder = target.writer && target.writer->writes_folder();
   if (!is_folder) check_output_file(request.output);
   protect_input(request.output, request.input);
@@ -403,8 +406,7 @@ std::string write_segmented(const ConvertRequest& request, io::LabelForm form,
 /// Writes the labels of a light field, with its views.
 std::string write_labels_of_scene(const ConvertRequest& request, io::LabelForm form, Job& job,
                                   const Progress& progress) {
-  Scene scene = load_input(request.input, request.read, progress.part(0, 0.3));
-  for (const auto& warning : scene.convention.warnings) job.note(warning);
+  Scene scene = load_input(request.input, request.read, job, progress.part(0, 0.3));
   const auto given = given_labels(scene, request, job, progress.part(0.3, 0.5));
   const auto& labels = given.empty() ? scene.truth->labels : given;
   if (labels.empty()) {
@@ -480,33 +482,13 @@ void convert_collection(ConvertRequest request, Job& job) {
   if (request.form.empty()) request.form = "benchmark";
   const std::vector<SceneInput> scenes =
       scene_inputs({request.input}, request.read, Frames::One, job.progress().part(0, 0));
-  Failures failures;
-  Json results = Json::array();
-  std::vector<std::string> written;
-  for (std::size_t i = 0; i < scenes.size(); ++i) {
-    const double share = 1 / static_cast<double>(scenes.size());
-    const double begin = static_cast<double>(i) * share;
+  const auto convert = [&](const SceneInput& scene, const Progress& progress) {
     ConvertRequest one = request;
-    one.input = scenes[i].input;
-    try {
-      one.output = place_in(request, scenes[i].name);
-      results.push_back(
-          convert_one(one, job, job.progress().part(begin, begin + share).titled(scenes[i].name)));
-      std::ranges::copy(results.back()["written"], std::back_inserter(written));
-    } catch (const std::filesystem::filesystem_error& error) {
-      throw IoError(request.output, "this folder cannot be made (" + error.code().message() +
-                                        "); choose another one");
-    } catch (const Error& error) {
-      failures.add(error.what());
-      job.note(error.what());
-      results.push_back(Json::object({{"input", one.input}, {"error", error.what()}}));
-    }
-  }
-  job.finish();
-  if (request.is_json) {
-    print_answer(Json::object({{"results", std::move(results)}}), job.notes(), written);
-  }
-  failures.require_none(scenes.size());
+    one.input = scene.input;
+    one.output = place_in(request, scene.name);
+    return convert_one(one, job, progress);
+  };
+  answers_of_many(scenes, job, convert).finish(job, request.is_json);
 }
 
 std::filesystem::path repacked_file(const std::string& input) {

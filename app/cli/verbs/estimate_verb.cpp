@@ -253,27 +253,25 @@ class Runner {
 
   /// Refuses an output that cannot be written, before hours are spent. Throws UsageError, IoError.
   void check(const Task& task) const {
-    const bool is_map = request_.is_submission || map_form(task.output);
-    if (!is_map) {
-      check_output_file(task.output);
-      if (map_form_of(task.output) != MapForm::Result) {
-        throw UsageError("estimate writes a result file, .h5, or a map, but the output is " +
-                         task.output + "; name it OUT.h5, OUT.npy or OUT.pfm");
+    if (!request_.is_submission) check_output_file(task.output);
+    if (request_.is_submission || map_form(task.output)) {
+      if (request_.overwrite == Overwrite::Yes) protect_light_field(task.output);
+      if (request_.overwrite == Overwrite::No && holds_something(task.output)) {
+        throw IoError(task.output, std::string("exists and does not tell which method made it; "
+                                               "choose another name, or ") +
+                                       kByOption);
       }
-      check_result_output(task.output,
-                          {.method = request_.estimator->info.id,
-                           .parameters = request_.parameters.values(),
-                           .input = from_.shown(task.input),
-                           .reading = io::given_options(options_of(task)),
-                           .is_of_one_view = options_.views == ViewSelection::Center},
-                          request_.overwrite);
-    } else if (!request_.is_submission) {
-      check_output_file(task.output);
-    }
-    if (is_map && request_.overwrite == Overwrite::No && holds_something(task.output)) {
-      throw IoError(task.output, std::string("exists and does not tell which method made it; "
-                                             "choose another name, or ") +
-                                     kByOption);
+    } else if (map_form_of(task.output) != MapForm::Result) {
+      throw UsageError("estimate writes a result file, .h5, or a map, but the output is " +
+                       task.output + "; name it OUT.h5, OUT.npy or OUT.pfm");
+    } else {
+      check_made_output(task.output,
+                        {.method = request_.estimator->info.id,
+                         .parameters = request_.parameters.values(),
+                         .input = from_.shown(task.input),
+                         .reading = io::given_options(options_of(task)),
+                         .is_of_one_view = options_.views == ViewSelection::Center},
+                        request_.overwrite);
     }
     if (from_.is(task.input)) require_no_other_source(task.output, request_.overwrite);
     protect_input(task.output, task.input);
@@ -417,47 +415,24 @@ void check_submitted(const EstimateArguments& request, Runner& runner, Failures&
 void estimate_many(const EstimateArguments& request, const std::vector<SceneInput>& scenes,
                    Runner& runner) {
   io::make_folder(request.output);
-  Json results = Json::array();
-  Failures failures;
-  const auto fail = [&](const SceneInput& scene, const std::string& sentence) {
-    failures.add(sentence);
-    results.push_back(Json::object({{"input", runner.shown(scene.input)}, {"error", sentence}}));
-    runner.job().note(sentence);
+  const auto estimate = [&](const SceneInput& scene, const Progress& progress) {
+    const auto output = request.is_submission
+                            ? io::submitted_map_file(request.output, scene.name)
+                            : std::filesystem::path(request.output) /
+                                  (scene.name + "_" + request.estimator->info.id + ".h5");
+    const Task task{scene.input, output.string(), scene.name, scene.frame};
+    runner.check(task);
+    const Answer answer = runner.run(task, progress);
+    Json json = answer_json(answer);
+    json["input"] = scene.input;
+    runner.job().finish();
+    if (!request.is_json) print_line(answer);
+    return json;
   };
-  const auto count = static_cast<double>(scenes.size());
-  for (std::size_t i = 0; i < scenes.size(); ++i) {
-    const auto done = static_cast<double>(i);
-    const Progress progress =
-        runner.job().progress().part(done / count, (done + 1) / count).titled(scenes[i].name);
-    try {
-      const auto output = request.is_submission
-                              ? io::submitted_map_file(request.output, scenes[i].name)
-                              : std::filesystem::path(request.output) /
-                                    (scenes[i].name + "_" + request.estimator->info.id + ".h5");
-      const Task task{scenes[i].input, output.string(), scenes[i].name, scenes[i].frame};
-      runner.check(task);
-      const Answer answer = runner.run(task, progress);
-      Json json = answer_json(answer);
-      json["input"] = runner.shown(scenes[i].input);
-      results.push_back(std::move(json));
-      runner.job().finish();
-      if (!request.is_json) print_line(answer);
-    } catch (const Error& error) {
-      fail(scenes[i], error.what());
-    }
-  }
-  runner.job().finish();
-  if (request.is_submission) check_submitted(request, runner, failures);
-  if (request.is_json) {
-    std::vector<std::string> written;
-    for (const Json& result : results) {
-      if (result.contains("written")) {
-        std::ranges::copy(result["written"], std::back_inserter(written));
-      }
-    }
-    print_answer(Json::object({{"results", std::move(results)}}), runner.job().notes(), written);
-  }
-  failures.require_none(scenes.size());
+  ManyAnswers answers = answers_of_many(scenes, runner.job(), estimate);
+  for (Json& each : answers.results) each["input"] = runner.shown(each["input"]);
+  if (request.is_submission) check_submitted(request, runner, answers.failures);
+  answers.finish(runner.job(), request.is_json);
 }
 
 /// Whether the output is a folder for one result file of each light field.

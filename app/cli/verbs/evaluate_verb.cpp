@@ -95,14 +95,9 @@ JudgedFile by_own_source(const std::string& result) {
     throw IoError(result, "there is no such file or folder; check the path");
   }
   const std::string source = stated_source(result);
-  if (source.empty()) {
-    throw UsageError("evaluate: " + result +
-                     " does not tell its light field; name it with --truth INPUT");
-  }
   const std::string input = existing_source(source, result);
-  if (!input.empty()) return {result, input, true};
-  throw IoError(result,
-                "its light field, " + source + ", is not there; name it with --truth INPUT");
+  if (input.empty()) fail_without_source(result, source);
+  return {result, input, true};
 }
 
 /// One of several, which does not stop the others.
@@ -439,9 +434,8 @@ class Judge {
  public:
   Judge(const EvaluateRequest& request, Job& job)
       : request_(request),
-        options_{.protocol = request.protocol,
-                 .invalid = request.invalid,
-                 .progress = job.progress()},
+        options_{
+            .protocol = request.protocol, .invalid = request.invalid, .progress = job.progress()},
         reading_(map_reading(request.map)),
         job_(job),
         truth_(request, job.progress().part(0, 0.8)) {}

@@ -21,7 +21,7 @@
 #include <array>
 #include <cmath>
 #include <iostream>
-#include <list>
+#include <memory>
 #include <utility>
 
 namespace episcope::cli {
@@ -139,8 +139,7 @@ void run_rectify(const VerbArguments& arguments, std::stop_token stop) {
   std::vector<capture::PointPair> picks;
   if (!request.picks.empty()) picks = capture::read_pairs(request.picks);
   Job job(std::move(stop), request.job);
-  Scene scene = load_input(request.input, request.read, job.progress().part(0, 0.2));
-  for (const auto& warning : scene.convention.warnings) job.note(warning);
+  Scene scene = load_input(request.input, request.read, job, job.progress().part(0, 0.2));
   CaptureWork work{.lens = CaptureLens{.camera = camera},
                    .rectify = {request.step.value_or(1), request.equalize}};
   work.objects = {{.name = request.picks, .pairs = std::move(picks)}};
@@ -345,19 +344,17 @@ bool parse(const VerbArguments& arguments, GroundTruthRequest& request) {
   return parse_reading(parser, arguments, request.job, request.read);
 }
 
-GroundTruth truth_of(const GroundTruthRequest& request, const Scene& scene, Job& job) {
+Scene with_truth(const GroundTruthRequest& request, const Scene& scene, Job& job) {
   const Progress progress = job.progress().part(0.05, 0.9);
-  const LightField& field = *scene.light_field;
-  std::list<capture::TriangleMesh> meshes;
-  std::vector<capture::PlacedMesh> placed;
+  std::vector<PosedMesh> meshes;
   for (const std::string& file : request.poses) {
     const capture::PoseStory story = capture::read_pose(file);
-    meshes.push_back(capture::read_mesh(story.mesh, progress.part(0, 0.1)));
-    placed.push_back({&meshes.back(), story.solved.pose});
-    note_doubts(file, story, meshes.back(), field, job);
+    meshes.push_back({std::make_shared<const capture::TriangleMesh>(
+                          capture::read_mesh(story.mesh, progress.part(0, 0.1))),
+                      story.solved.pose});
+    note_doubts(file, story, *meshes.back().mesh, *scene.light_field, job);
   }
-  const capture::DepthGrid grid{field.grid(), field.height(), field.width(), field.info().camera};
-  return capture::visible_depth(placed, grid, request.depth, progress.part(0.1, 1));
+  return with_mesh_truth(meshes, scene, progress.part(0.1, 1), request.depth);
 }
 
 /// The views are in order: they tell whether the truth is right.
@@ -411,14 +408,13 @@ void run_ground_truth(const VerbArguments& arguments, std::stop_token stop) {
   protect_input(request.output, request.input);
   check_light_field_output(request.output, request.overwrite);
   Job job(std::move(stop), request.job);
-  Scene scene = load_input(request.input, request.read, job.progress().part(0, 0.05));
-  for (const auto& warning : scene.convention.warnings) job.note(warning);
+  Scene scene = load_input(request.input, request.read, job, job.progress().part(0, 0.05));
   if (request.step) {
     LightFieldInfo info = scene.light_field->info();
     info.camera.baseline = *request.step;
     scene.light_field = with_info(*scene.light_field, std::move(info));
   }
-  scene.truth = std::make_shared<GroundTruth>(truth_of(request, scene, job));
+  scene = with_truth(request, scene, job);
   note_contradictions(scene, job);
   const std::filesystem::path labels = io::labels_place(request.output, scene);
   io::write_archive(request.output, scene, job.progress().part(0.9, 1));

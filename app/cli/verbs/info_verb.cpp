@@ -92,15 +92,7 @@ void add_date(const std::string& file, FileInfo& info) {
 }
 
 /// What a file says of the run that made it.
-struct MadeBy {
-  ParameterSet parameters;
-  double seconds = 0;
-  std::string version;
-  std::string source;
-  Reading reading;
-};
-
-void add_made_by(const MadeBy& made, const std::string& file, FileInfo& info) {
+void add_made_by(const Provenance& made, const std::string& file, FileInfo& info) {
   Json& json = info.json;
   const bool is_there = !existing_source(made.source, file).empty();
   json["parameters"] = io::parameters_json(made.parameters);
@@ -145,32 +137,10 @@ std::string views_text(GridShape grid, ViewIndex first) {
   return fmt::format("{}×{} views", grid.v, grid.u);
 }
 
-/// Range of the valid values, and their share.
-struct MapSummary {
-  Interval range{};
-  double valid_percent = 0;
-};
-
-MapSummary summary_of(const DisparityField& field) {
-  MapSummary summary{
-      {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()}};
-  std::size_t valid = 0;
-  const std::size_t size = field.disparity.size();
-  for (std::size_t i = 0; i < size; ++i) {
-    if (!field.valid.empty() && field.valid.data()[i] == 0) continue;
-    const double value = field.disparity.data()[i];
-    summary.range = {std::min(summary.range.min, value), std::max(summary.range.max, value)};
-    ++valid;
-  }
-  if (valid == 0) summary.range = {};
-  summary.valid_percent = 100.0 * static_cast<double>(valid) / static_cast<double>(size);
-  return summary;
-}
-
 FileInfo describe_result(const std::string& file) {
   const Estimate estimate = read_result_alone(file);
   const auto& maps = estimate.field.disparity;
-  const MapSummary summary = summary_of(estimate.field);
+  const auto [range, valid_percent] = summarize(estimate.field);
   const bool is_own = io::is_result_file(file);
   const bool has_range = !(estimate.range == Interval{});
   FileInfo info{{}, {{"input", file}, {"kind", "result"}}};
@@ -180,8 +150,8 @@ FileInfo describe_result(const std::string& file) {
   if (is_own) json["first_view"] = view_json(maps.first());
   json["height"] = maps.height();
   json["width"] = maps.width();
-  json["valid_percent"] = summary.valid_percent;
-  json["disparity"] = interval_json(summary.range);
+  json["valid_percent"] = valid_percent;
+  json["disparity"] = interval_json(range);
   if (has_range) json["range"] = interval_json(estimate.range);
   json["confidence"] = !estimate.confidence.empty();
   json["second"] = !estimate.second.empty();
@@ -189,17 +159,15 @@ FileInfo describe_result(const std::string& file) {
 
   const std::string views = is_own ? views_text(maps.grid(), maps.first())
                                    : fmt::format("{}×{} views", maps.grid().v, maps.grid().u);
-  info.lines = {{"result", is_own ? "of " + estimate.method : "a map of another program"},
-                {"shape", fmt::format("{} of {}×{} px{}{}{}", views, maps.width(), maps.height(),
-                                      estimate.confidence.empty() ? "" : ", with confidence",
-                                      estimate.second.empty() ? "" : ", second disparity",
-                                      estimate.layered.foreground.empty() ? "" : ", two layers")},
-                {"disparity", fmt::format("{}, {:.4g} % of the pixels", range_text(summary.range),
-                                          summary.valid_percent)}};
+  info.lines = {
+      {"result", is_own ? "of " + estimate.method : "a map of another program"},
+      {"shape", fmt::format("{} of {}×{} px{}{}{}", views, maps.width(), maps.height(),
+                            estimate.confidence.empty() ? "" : ", with confidence",
+                            estimate.second.empty() ? "" : ", second disparity",
+                            estimate.layered.foreground.empty() ? "" : ", two layers")},
+      {"disparity", fmt::format("{}, {:.4g} % of the pixels", range_text(range), valid_percent)}};
   if (has_range) info.lines.emplace_back("searched", range_text(estimate.range));
-  add_made_by(
-      {estimate.parameters, estimate.seconds, estimate.version, estimate.source, estimate.reading},
-      file, info);
+  add_made_by(estimate, file, info);
   add_run(estimate, info);
   json["notes"] = estimate.notes;
   json["findings"] = findings_json(estimate.notes);
@@ -209,7 +177,6 @@ FileInfo describe_result(const std::string& file) {
 
 FileInfo describe_labels(const std::string& file) {
   const io::SegmentationFile labels(file);
-  const io::Hdf5Input attributes(file);
   const Image<std::int32_t> first = labels.labels(labels.first());
   FileInfo info{{}, {{"input", file}, {"kind", "labels"}}};
   Json& json = info.json;
@@ -230,10 +197,7 @@ FileInfo describe_labels(const std::string& file) {
                 {"shape", fmt::format("{} of {}×{} px{}", views_text(labels.grid(), labels.first()),
                                       first.width(), first.height(),
                                       labels.has_probabilities() ? ", with probabilities" : "")}};
-  add_made_by({io::parameters_from_json(attributes.text("/", "parameters").value_or("")),
-               attributes.number("/", "seconds").value_or(0),
-               attributes.text("/", "version").value_or(""), labels.source(), labels.reading()},
-              file, info);
+  add_made_by(labels_provenance(file), file, info);
   return info;
 }
 
@@ -405,12 +369,14 @@ void add_truth(Json& json, const Scene& scene, const SceneSummary& summary) {
       json["truth"]["disparity_center"] = interval_json(*center);
     }
   }
-  if (const auto& estimated = scene.truth->estimated) {
-    json["truth_estimated"] =
-        Json::object({{"method", estimated->method},
-                      {"parameters", io::parameters_json(estimated->parameters)},
-                      {"source", estimated->source},
-                      {"version", estimated->version}});
+  for (const auto& [key, estimated] :
+       {std::pair{"truth_estimated", &scene.truth->estimated},
+        std::pair{"labels_estimated", &scene.truth->labels_estimated}}) {
+    if (!*estimated) continue;
+    json[key] = Json::object({{"method", (*estimated)->method},
+                              {"parameters", io::parameters_json((*estimated)->parameters)},
+                              {"source", (*estimated)->source},
+                              {"version", (*estimated)->version}});
   }
   if (summary.has_layers) json["truth_layers"] = 2;
   if (!summary.label_ids.empty()) {
@@ -553,6 +519,9 @@ void print_truth(const Scene& scene, const SceneSummary& summary) {
   if (!summary.label_ids.empty()) {
     print_line("labels", ids_text(summary.label_ids) + " in " + summary.label_views + " view" +
                              (summary.label_views == "all" ? "s" : ""));
+  }
+  if (const auto& estimated = scene.truth->labels_estimated) {
+    print_line("", "not ground truth: " + estimated_text(*estimated));
   }
   if (summary.painted_percent > 0) {
     print_line("scribbles", fmt::format("{:.3g} % of view {}, labels {}", summary.painted_percent,

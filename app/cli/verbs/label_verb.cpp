@@ -133,7 +133,7 @@ void check_folders(const LabelRequest& request) {
 void check_replaced(const LabelRequest& request, std::optional<std::uint64_t> sources_hash) {
   const ParameterSet reading =
       io::given_options(io::open_schema().parse(request.read.options.values()));
-  check_labeling_output(
+  check_made_output(
       request.output,
       {{}, labeler_schema().values(request.parameters), request.input, reading, sources_hash},
       request.overwrite);
@@ -292,9 +292,7 @@ ComputedLabels compute_labels(const Scene& scene, GivenSources& given, const Lab
       given.disparity.field
           ? given.disparity
           : find_labeling_disparity(scene, request.parameters, {}, progress.part(0, 0.1), device);
-  Labeler labeler(scene.light_field, disparity.field, find_edge_probabilities(scene, progress),
-                  disparity.confidence());
-  labeler.compute_on(device);
+  Labeler labeler = labeler_of(scene, disparity, progress, device);
   auto labeling = std::make_shared<const Labeling>(
       label_views(labeler, given, request, scene.light_field->grid(), progress.part(0.1, 1)));
   return {std::move(disparity), std::move(labeling), watch.seconds()};
@@ -333,8 +331,7 @@ void run_label(const VerbArguments& arguments, std::stop_token stop) {
 
   Job job(std::move(stop), request.job);
   const Progress& progress = job.progress();
-  Scene scene = load_input(request.input, request.read, progress.part(0, 0.1));
-  for (const auto& warning : scene.convention.warnings) job.note(warning);
+  Scene scene = load_input(request.input, request.read, job, progress.part(0, 0.1));
   GivenSources given = load_sources(request, scene, job);
   check_replaced(request, given.hash);
   for (const std::string& note : stroke_notes(given.scribbles, scene.truth->labels)) job.note(note);
@@ -342,11 +339,9 @@ void run_label(const VerbArguments& arguments, std::stop_token stop) {
   const Labeling& labeling = *computed.labeling;
   if (!labeling.note.empty()) job.note(labeling.note);
   std::vector<std::string> written = write_all(scene, given, computed, from, request, job);
-  const LabelAnswer answer{
-      labeling,
-      judge_labeling(labeling.labels, scene.light_field->center(), scene.truth->labels,
-                     *scene.truth, computed.disparity.field.get(), progress.part(1, 1)),
-      computed.seconds, std::move(written)};
+  const LabelAnswer answer{labeling,
+                           judge_labeling(labeling, scene, computed.disparity, progress.part(1, 1)),
+                           computed.seconds, std::move(written)};
   const std::string other_numbers = other_numbers_text(answer.scores);
   if (!other_numbers.empty()) job.note(other_numbers);
   job.finish();

@@ -47,29 +47,15 @@ void print_method(const Estimator& method) {
 }
 
 /// A line for each.
-void print_table(const std::vector<const Estimator*>& methods) {
+void print_table(const std::vector<Estimator>& methods) {
   std::size_t longest = 0;
-  for (const Estimator* each : methods) longest = std::max(longest, each->info.id.size());
-  for (const Estimator* each : methods) {
-    std::cout << fmt::format("{:<{}}  {:<{}}  {}  {}  {}\n", each->info.id, longest,
-                             each->info.name, longest,
-                             each->info.all_views ? "all views" : "one view ",
-                             has_gpu(*each) ? "CPU, GPU" : "CPU     ", each->info.summary);
+  for (const Estimator& each : methods) longest = std::max(longest, each.info.id.size());
+  for (const Estimator& each : methods) {
+    std::cout << fmt::format("{:<{}}  {:<{}}  {}  {}  {}\n", each.info.id, longest, each.info.name,
+                             longest, each.info.all_views ? "all views" : "one view ",
+                             has_gpu(each) ? "CPU, GPU" : "CPU     ", each.info.summary);
   }
   std::cout << "\n'episcope-cli methods ID' tells reference and parameters, such as --range.\n";
-}
-
-/// Those that are named, each once; all if none is.
-std::vector<const Estimator*> methods_named(const std::vector<std::string>& names) {
-  std::vector<const Estimator*> methods;
-  for (const std::string& name : names) {
-    const Estimator* const known = known_estimator(name);
-    if (known == nullptr) throw unknown_name("method", name, estimator_ids());
-    if (std::ranges::find(methods, known) == methods.end()) methods.push_back(known);
-  }
-  if (!methods.empty()) return methods;
-  for (const Estimator& each : registered_estimators()) methods.push_back(&each);
-  return methods;
 }
 
 }  // namespace
@@ -85,14 +71,15 @@ void run_methods(const VerbArguments& arguments, std::stop_token) {
   parser.optional_positionals("ID", names, "Methods to tell all of");
   parser.flag("--json", is_json, "Print one JSON object instead of a table");
   if (!parser.parse(arguments)) return;
-  const std::vector<const Estimator*> methods = methods_named(names);
+  const std::vector<Estimator> methods =
+      names.empty() ? registered_estimators() : methods_named(names);
   if (is_json) {
     Json list = Json::array();
-    for (const Estimator* each : methods) list.push_back(method_json(*each));
+    for (const Estimator& each : methods) list.push_back(method_json(each));
     return print_answer(Json::object({{"methods", list}, {"results", list}}));
   }
   if (names.empty()) return print_table(methods);
-  for (const Estimator* each : methods) print_method(*each);
+  for (const Estimator& each : methods) print_method(each);
 }
 
 }  // namespace episcope::cli

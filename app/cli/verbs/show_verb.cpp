@@ -123,17 +123,6 @@ std::string named_source(const ShownMap& shown, const std::string& of_file) {
   return shown.truth.empty() ? of_file : shown.truth;
 }
 
-/// A file that names no light field needs the option; one whose light field is gone is at fault.
-[[noreturn]] void fail_without_source(const ShownMap& shown, const std::string& named) {
-  constexpr const char* kRemedy = "; name it with --truth INPUT";
-  if (named.empty()) {
-    throw UsageError(shown.subject + ": the light field it was made from is not named in it" +
-                     kRemedy);
-  }
-  throw IoError(shown.subject,
-                "the light field it was made from, " + named + ", is not there" + kRemedy);
-}
-
 void take_scene(const ShownMap& shown, Scene scene, LoadedMap& loaded) {
   loaded.source.light_field = scene.light_field;
   loaded.source.truth = scene.truth;
@@ -203,7 +192,7 @@ void load_result(const ShownMap& shown, const ReadOptions& read, LoadedMap& load
     if (!source.empty()) {
       scene = load_input_of(reading, source, read, job.progress().part(0, 0.9));
     } else if (!can_do_without_scene(shown)) {
-      fail_without_source(shown, estimate->source);
+      fail_without_source(shown.subject, estimate->source);
     }
   }
   loaded.source.view = shown.view.value_or(subject_of(shown) == Subject::Error && scene
@@ -234,7 +223,7 @@ void load_labels(const ShownMap& shown, const ReadOptions& read, LoadedMap& load
   if (shown.quantity != Quantity::WrongLabels && !shown.needs_light_field) return;
   const std::string named = io::SegmentationFile(shown.subject).source();
   const std::string input = named_source(shown, existing_source(named, shown.subject));
-  if (input.empty()) fail_without_source(shown, named);
+  if (input.empty()) fail_without_source(shown.subject, named);
   take_scene(shown,
              load_input_of({shown.subject, segmentation.reading}, input, read,
                            job.progress().part(0, 0.9)),

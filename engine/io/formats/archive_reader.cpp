@@ -104,7 +104,21 @@ std::map<std::string, Image<std::uint8_t>> read_regions(const Hdf5Input& file,
 struct ArchiveLabels {
   ViewStack<std::int32_t> labels;
   Scribbles scribbles;
+  std::optional<Provenance> estimated{};
 };
+
+/// How a dataset was estimated, if the file says that it is a result.
+std::optional<Provenance> read_estimated(const Hdf5Input& file, const std::string& name) {
+  if (!file.has_numbers(name)) return std::nullopt;
+  const auto method = file.text(name, kEstimatedBy);
+  if (!method) return std::nullopt;
+  Provenance estimated;
+  estimated.method = *method;
+  estimated.parameters = parameters_from_json(file.text(name, kEstimateParameters).value_or("{}"));
+  estimated.source = file.text(name, kEstimateSource).value_or("");
+  estimated.version = file.text(name, kEstimateVersion).value_or("");
+  return estimated;
+}
 
 bool contains_zero(const ViewStack<std::int32_t>& labels) {
   return !labels.empty() && std::find(labels.data(), labels.data() + labels.size(), 0) !=
@@ -119,8 +133,9 @@ ArchiveLabels read_archive_labels(const Hdf5Input& file, const FieldShape& shape
   ArchiveLabels found;
   if (file.has_numbers(kTrueLabels)) {
     found.labels = read_maps<std::int32_t>(file, kTrueLabels, shape, progress.part(0, 0.9));
+    found.scribbles.labels = read_label_list(file, kTrueLabels);
+    found.estimated = read_estimated(file, kTrueLabels);
   }
-  if (file.has_numbers(kTrueLabels)) found.scribbles.labels = read_label_list(file, kTrueLabels);
   if (!file.has_numbers("SCRIBBLES")) return found;
   StoredScribbles stored =
       read_scribble_dataset(file, shape, contains_zero(found.labels), progress.part(0.9, 1));
@@ -305,23 +320,6 @@ ArchiveLabels read_labels(const Hdf5Input& file, const FieldShape& shape, Conven
   return own;
 }
 
-/// How the depth was estimated, if the file says that it is a result.
-std::optional<Provenance> read_estimated(const Hdf5Input& file) {
-  for (const char* name : {"GT_DEPTH", "GT_DEPTH_FOREGROUND"}) {
-    if (!file.has_numbers(name)) continue;
-    const auto method = file.text(name, kEstimatedBy);
-    if (!method) continue;
-    Provenance estimated;
-    estimated.method = *method;
-    estimated.parameters =
-        parameters_from_json(file.text(name, kEstimateParameters).value_or("{}"));
-    estimated.source = file.text(name, kEstimateSource).value_or("");
-    estimated.version = file.text(name, kEstimateVersion).value_or("");
-    return estimated;
-  }
-  return std::nullopt;
-}
-
 void tell_unused_depth(const ArchiveTruth& depth, bool has_disparity, ConventionReport& report) {
   if (depth.unused_depth.empty()) return;
   if (!has_disparity) {
@@ -414,6 +412,11 @@ class ArchiveReading {
       ArchiveLabels labels =
           read_labels(file_, layout_.shape, report_, account_, progress.part(0.85, 0.95));
       truth.labels = std::move(labels.labels);
+      truth.labels_estimated = std::move(labels.estimated);
+      if (truth.labels_estimated) {
+        report_.warnings.push_back(
+            fmt::format(finding_text("labels.estimated"), estimated_text(*truth.labels_estimated)));
+      }
       scribbles_ = std::move(labels.scribbles);
     }
     parts_.expected = expected_order(file_);
@@ -430,7 +433,8 @@ class ArchiveReading {
       infos_ = add_maps_named_after(path_, options_, parts_, {account_, report_}, progress);
       return;
     }
-    truth.estimated = read_estimated(file_);
+    truth.estimated = read_estimated(file_, kTrueDepth);
+    if (!truth.estimated) truth.estimated = read_estimated(file_, "GT_DEPTH_FOREGROUND");
     if (!truth.estimated || !options_.needs_truth) return;
     report_.warnings.push_back(
         fmt::format(finding_text("truth.estimated"), estimated_text(*truth.estimated)));

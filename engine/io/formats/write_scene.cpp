@@ -182,7 +182,7 @@ void write_depth(Hdf5Output& file, const std::string& name, const DisparityField
   });
 }
 
-/// Says that a map of depth is a result.
+/// Says that maps are a result.
 void write_estimated(Hdf5Output& file, const std::string& name, const Provenance& estimated) {
   file.set_text(name, kEstimatedBy, estimated.method);
   file.set_text(name, kEstimateParameters, parameters_to_json(estimated.parameters));
@@ -222,7 +222,11 @@ void write_true_labels(Hdf5Output& file, const Scene& scene, const Progress& pro
 
 void write_labels(Hdf5Output& file, const Scene& scene, const Progress& progress) {
   write_true_labels(file, scene, progress);
-  if (!scene.truth->labels.empty()) add_label_list(file, kTrueLabels, scene.scribbles.labels);
+  if (!scene.truth->labels.empty()) {
+    add_label_list(file, kTrueLabels, scene.scribbles.labels);
+    const auto& estimated = scene.truth->labels_estimated;
+    if (estimated) write_estimated(file, kTrueLabels, *estimated);
+  }
   if (scene.scribbles.empty()) return;
   const LightField& field = *scene.light_field;
   add_scribbles(file, scene.scribbles, {{field.grid(), field.height(), field.width()}, {}, false},

@@ -114,6 +114,19 @@ def test_what_does_not_fit_is_told_as_by_the_command_line(scene, result):
     assert "estimated from other samples" in episcope.score(result, other)["notes"][0]
 
 
+def test_order_of_views_is_checked_against_an_array(scene, result):
+    swapped = numpy.transpose(result.disparity, (1, 0, 2, 3))
+    notes = episcope.score(swapped, scene.truth)["notes"]
+    assert "another order, rows and columns of views exchanged" in notes[0]
+
+
+def test_sentences_name_arguments_of_python(scene, result):
+    notes = episcope.score(-result.disparity[2, 2], scene)["notes"]
+    assert "map_scale=-1" in notes[0] and "--" not in notes[0]
+    with pytest.raises(episcope.InvalidInput, match=r"\(map_resize\)"):
+        episcope.score(numpy.zeros((200, 300)), scene)
+
+
 def test_another_reading_is_told_against_an_array(scene, result):
     scores = episcope.score(-result.disparity[2, 2], scene.truth[2, 2])
     assert scores["better_reading"]["options"] == "--map-scale=-1"

@@ -416,11 +416,13 @@ void require_distinct_views(std::vector<ViewPicture>& pictures) {
                                  "); choose one of them");
 }
 
-/// Whether arrays hold labels of views of this shape, by their sizes and names.
+/// Whether arrays hold labels of views of this shape, by their sizes and names; floats do by their
+/// name alone.
 bool fits_as_labels(const ArrayFile& file, const Hdf5Input* tagged, const FieldShape& shape) {
   try {
-    const std::string name = last_name(find_array(file, tagged, shape).entry.name);
-    return map_kind(name).value_or(MapKind::Labels) == MapKind::Labels;
+    const ArrayEntry entry = find_array(file, tagged, shape).entry;
+    const auto kind = map_kind(last_name(entry.name));
+    return kind ? *kind == MapKind::Labels : !is_float(entry.type);
   } catch (const IoError&) {
     return false;
   }

@@ -514,6 +514,9 @@ ImportedLabels labels_of_pictures(std::vector<ViewPicture> pictures, const Label
   }
   ImportedLabels labels = colored > 0 ? strokes_of_colors(pictures, reading, path)
                                       : strokes_of_numbers(pictures, reading, path);
+  if (colored > 0 && reading.zero_is_label) {
+    labels.notes.emplace_back(finding_text("labels.colors_first"));
+  }
   std::erase_if(labels.scribbles.views, [](const ViewScribbles& one) {
     return std::ranges::all_of(one.labels, [](std::int32_t id) { return id == 0; });
   });

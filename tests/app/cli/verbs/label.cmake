@@ -161,5 +161,14 @@ expect("labels as a result" 1 ERR "l.h5: holds labels and no disparity; .* conve
 expect("ids that are none" 2 ERR "--ignore is 'x'" ARGS convert lf.h5 m.h5 --labels as_labels --ignore x)
 expect("options of labels" 2 ERR "--ignore has no effect without --labels" ARGS convert lf.h5 m.h5 --ignore 255)
 expect("0 as a label" 0 ERR "raised by one" ARGS convert lf.h5 z.h5 --labels as_labels --first-label 0)
+expect("a picture of labels" 0 ARGS show l.h5 -o first.png --view 1,1)
+expect("0 as the first color" 0 ERR "A first label of 0 has no effect on colors"
+       ARGS label lf.h5 --scribbles first.png --first-label 0 -o colors_first.h5 --features image)
+expect("computed labels as true ones" 0 ERR "" ARGS convert lf.h5 computed.h5 --labels l.h5)
+expect("info of them" 0 OUT "labels +[1-9].*not ground truth: estimated by label from lf.h5\n"
+       ARGS info computed.h5)
+expect("info of them as JSON" 0 ARGS info computed.h5 --json)
+json_is("${out}" label labels_estimated method)
+expect("a form that cannot say so" 0 ERR "how labels were computed" ARGS convert computed.h5 computed/)
 expect("an ignored id" 0 ERR "1 \\(.* % of the pixels\\) is taken for unlabeled"
        ARGS convert lf.h5 i.h5 --labels as_labels --ignore 1)

@@ -42,6 +42,26 @@ endforeach()
 expect_files(a labels.h5 lf.h5 r.h5)
 expect_files(b labels.h5 lf.h5)
 
+# Nor are views and truth of any light field.
+refused("input_Cam000.png: is part of a light field" show a -o bench/input_Cam000.png --overwrite)
+refused("gt_disp_lowres.pfm: is part of a light field" convert a/r.h5 bench/gt_disp_lowres.pfm
+        --overwrite)
+refused("gt_disp_lowres.pfm: is part of a light field" estimate epi_l a -o bench/gt_disp_lowres.pfm
+        --overwrite)
+expect("a light field in an array" 0 ERR "note" ARGS convert a a/array.npy)
+refused("array.npy: is part of a light field" estimate epi_l b -o a/array.npy --overwrite)
+file(REMOVE "${WORK}/a/array.npy")
+foreach(file ${kept})
+  file(SHA256 "${WORK}/${file}" after)
+  if(NOT after STREQUAL before_${file})
+    fail_case("${file} has changed")
+  endif()
+endforeach()
+foreach(view 1 2)
+  expect("a picture of ours among views" 0 ARGS show b -o bench/error.png --view 0,${view} --overwrite)
+endforeach()
+file(REMOVE "${WORK}/bench/error.png")
+
 expect("replace a light field when asked" 0 ARGS convert a b/lf.h5 --overwrite)
 expect("synthesize over a light field when asked" 0
        ARGS synthesize fronto -o b/lf.h5 --views 3x3 --size 48x48 --overwrite)

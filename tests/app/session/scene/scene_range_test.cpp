@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/session/scene_summary.h"
 
+#include "app/session/load_scene.h"
+#include "app/session/run_estimator.h"
+#include "engine/disparity/registry.h"
 #include "tests/app/session/tiny_scene.h"
 #include "tests/test_main.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <variant>
@@ -45,6 +49,23 @@ class SceneRangeTest : public QObject {
     scene.light_field = std::make_shared<const LightField>(
         std::get<ViewStack<std::uint8_t>>(scene.light_field->samples()).clone(), info);
     QCOMPARE(known_disparity_range(scene), (Interval{-3, 2}));
+  }
+
+  void searchOfLessThanIsStated_isTold() {
+    Scene scene = *tiny_scene("edge");
+    LightFieldInfo info = scene.light_field->info();
+    info.disparity_range = Interval{-0.5, 0.8};
+    scene.light_field = with_info(*scene.light_field, info);
+    for (const Interval range : {Interval{0, 0.1}, Interval{5, 6}, Interval{-1, 1}}) {
+      const EstimatePtr estimate =
+          run_estimator(scene, find_estimator("epi_l"), {{"range", IntervalOrAuto(range)}}, {},
+                        Progress())
+              .estimate;
+      const bool is_told = std::ranges::any_of(estimate->notes, [](const std::string& note) {
+        return note.ends_with("range that the light field states, -0.50 … 0.80 px");
+      });
+      QCOMPARE(is_told, range.min != -1);
+    }
   }
 
   void whatIsNotToldApart_isWarnedOf() {

@@ -465,6 +465,19 @@ class LabelImportTest : public QObject {
     QVERIFY(!io::holds_labels_only(path("own.h5")));
   }
 
+  void floatArrays_areLabelsByTheirNameAlone() {
+    const auto& shape = kPlaces.shape;
+    for (const char* name : {"values", "labels"}) {
+      const std::filesystem::path file = path(std::string(name) + ".h5");
+      io::AtomicFile target(file);
+      io::Hdf5Output out(target);
+      out.add_dataset<float>(name, {kHeight, kWidth}, "", "");
+      out.close();
+      target.commit();
+      QCOMPARE(io::holds_labels_only(file, &shape), std::string(name) == "labels");
+    }
+  }
+
   void largeIds_becomeFreeOnes() {
     auto labels = io::read_label_files({tool_file("u16.png")}, kPlaces);
 
