@@ -21,7 +21,6 @@
 namespace episcope::cli {
 namespace {
 
-constexpr const char* kGantry = "gantry";
 constexpr int kMostViews = 101;
 constexpr int kMostPixels = 8192;
 constexpr int kLeastSensor = 240;
@@ -80,42 +79,39 @@ bool parse(const VerbArguments& arguments, SynthesizeRequest& request) {
   if (!parser.parse(arguments)) return false;
   if (const std::string id = builtin_scene_id(request.scene); !id.empty()) request.scene = id;
   parser.check_uses({{{"--overwrite"},
-                      request.scene != kGantry,
+                      request.scene != kGantryScene,
                       "on the folder of the gantry, which must be empty"},
                      {{"--overwrite", "--grid"}, !request.camera, "with --camera"}});
   return true;
 }
 
-// What the scene says of itself, and options over it.
-scenes::BuiltinRequest scene_of(const SynthesizeRequest& request) {
-  scenes::BuiltinRequest scene = scenes::read_request(request.scene);
-  scenes::RenderOptions& options = scene.options;
-  if (request.views) options.grid = {request.views->first, request.views->second};
-  if (request.size) {
-    options.width = request.size->first;
-    options.height = request.size->second;
+/// The scene with options behind its name, "edge?grid=5x5&seed=3"; those of a camera are left out.
+std::string scene_text(const SynthesizeRequest& request) {
+  std::string text = request.scene;
+  const auto add = [&text](const std::string& option) {
+    text += (text.find('?') == std::string::npos ? '?' : '&') + option;
+  };
+  const auto add_extent = [&add](const char* key, const std::optional<Extent>& extent) {
+    if (extent) add(fmt::format("{}={}x{}", key, extent->first, extent->second));
+  };
+  if (!request.camera) {
+    add_extent("grid", request.views);
+    add_extent("size", request.size);
+    if (request.noise) add(fmt::format("noise={}", *request.noise));
   }
-  options.noise_sigma = request.noise.value_or(options.noise_sigma);
-  if (request.seed) options.seed = static_cast<unsigned>(*request.seed);
-  return scene;
+  if (request.seed) add(fmt::format("seed={}", *request.seed));
+  return text;
 }
 
 /// The folder of the gantry, in place of a light field.
 void synthesize_gantry(const SynthesizeRequest& request, std::stop_token stop) {
-  capture::DemoOptions options;
-  if (request.views) options.grid = {request.views->first, request.views->second};
-  if (request.size) {
-    options.width = request.size->first;
-    options.height = request.size->second;
-  }
-  options.noise = request.noise.value_or(options.noise);
-  if (request.seed) options.seed = static_cast<unsigned>(*request.seed);
+  const capture::DemoOptions options = gantry_options(scene_text(request));
   Job job(std::move(stop), request.job);
   capture::write_demo_folder(request.output, options, job.progress());
   job.finish();
   if (request.is_json) {
-    return print_answer(Json::object({{"scene", kGantry}, {"output", request.output}}), job.notes(),
-                        {request.output});
+    return print_answer(Json::object({{"scene", kGantryScene}, {"output", request.output}}),
+                        job.notes(), {request.output});
   }
   std::cout << request.output << ": photographs, pattern, mesh and picks; see readme.txt\n";
 }
@@ -140,8 +136,7 @@ capture::SyntheticCamera camera_of(const SynthesizeRequest& request) {
 /// The folder of a raw picture, in place of a light field.
 void synthesize_raw(const SynthesizeRequest& request, std::stop_token stop) {
   const capture::SyntheticCamera camera = camera_of(request);
-  scenes::BuiltinRequest scene = scenes::read_request(request.scene);
-  if (request.seed) scene.options.seed = static_cast<unsigned>(*request.seed);
+  const scenes::BuiltinRequest scene = scenes::read_request(scene_text(request));
   Job job(std::move(stop), request.job);
   const RawFolder files = write_raw_folder(request.output, scene, camera, job.progress());
   job.finish();
@@ -170,10 +165,10 @@ Json answer_json(const SynthesizeRequest& request, const scenes::RenderOptions& 
 void run_synthesize(const VerbArguments& arguments, std::stop_token stop) {
   SynthesizeRequest request;
   if (!parse(arguments, request)) return;
-  if (request.scene == kGantry) return synthesize_gantry(request, std::move(stop));
+  if (request.scene == kGantryScene) return synthesize_gantry(request, std::move(stop));
   check_builtin_scene(request.scene);
   if (request.camera) return synthesize_raw(request, std::move(stop));
-  const auto [id, options] = scene_of(request);
+  const auto [id, options] = scenes::read_request(scene_text(request));
   check_hdf5_output("synthesize", request.output);
   check_light_field_output(request.output, request.overwrite);
 
