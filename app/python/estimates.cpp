@@ -221,6 +221,7 @@ py::dict score_array(const py::object& judged, const py::object& truth,
                      const EvaluationOptions& options, const py::object& view,
                      const io::MapReading& reading) {
   const py::object map = py::isinstance<FoundEstimate>(judged) ? judged.attr("disparity") : judged;
+  if (names_path(map)) (void)numbers_from<float>(map, "the maps");  // says that it is no array
   const GridShape of_truth = grid_of_maps(truth);
   const GridShape grid = of_truth.count() > 1 ? of_truth : grid_of_maps(map);
   const ViewIndex at = view_to_score(judged, view, grid);

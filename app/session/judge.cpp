@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/session/judge.h"
 
-#include "app/session/result_fit.h"
 #include "engine/core/error.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <cmath>
@@ -136,6 +136,15 @@ Image<std::uint8_t> covered(const Estimate& estimate, const LightField& light_fi
 }
 
 }  // namespace
+
+std::string reason_against_view(const ViewRectangle& covered, ViewIndex view,
+                                const std::string& who, const std::string& what) {
+  if (covered.grid.count() == 0) return who + " has no " + what;
+  const ViewIndex place{view.v - covered.first.v, view.u - covered.first.u};
+  if (covered.grid.contains(place)) return {};
+  return fmt::format("{} has {}×{} views from view {} on, but view {} was asked for", who,
+                     covered.grid.v, covered.grid.u, view_text(covered.first), view_text(view));
+}
 
 ViewIndex judged_view(const Scene& scene) {
   const GroundTruth& truth = *scene.truth;

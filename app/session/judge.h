@@ -22,6 +22,17 @@ namespace episcope {
 
 using EvaluationPtr = std::shared_ptr<const Evaluation>;
 
+/// "the result has 1×1 views from view 4,4 on, but view 0,0 was asked for": why a view cannot be
+/// shown, as a sentence without its full stop; `what` names what there is none of if nothing is
+/// covered. Empty if it is covered.
+[[nodiscard]] std::string reason_against_view(const ViewRectangle& covered, ViewIndex view,
+                                              const std::string& who, const std::string& what);
+/// Which views a stack has.
+template <class T>
+[[nodiscard]] ViewRectangle coverage_of(const ViewStack<T>& stack) {
+  return {stack.first(), stack.grid()};
+}
+
 /// The view in which a result is judged if nobody asks for another: the center, or the first that
 /// the truth covers where that is not the center. The center if there is no truth.
 [[nodiscard]] ViewIndex judged_view(const Scene& scene);

@@ -12,6 +12,7 @@
 #include "engine/io/base/files.h"
 #include "engine/io/base/hdf5_file.h"
 #include "engine/io/base/json.h"
+#include "engine/io/base/npy.h"
 #include "engine/io/models/result_file.h"
 #include "engine/io/models/scribble_file.h"
 #include "engine/io/open.h"
@@ -212,8 +213,24 @@ bool has_same_bytes(const fs::path& a, const fs::path& b) {
 
 }  // namespace
 
+namespace {
+
+/// An array that holds no maps; those of a view have two axes, those of all views four.
+bool is_other_array(const fs::path& path) {
+  const auto form = map_form_of(path);
+  if (form == MapForm::Npz || form == MapForm::Mat) return !names_result(path.string());
+  try {
+    return form == MapForm::Npy && io::NpyFile(path).shape().size() % 2 != 0;
+  } catch (const IoError&) {
+    return false;  // damaged
+  }
+}
+
+}  // namespace
+
 void protect_light_field(const fs::path& path) {
-  if (!holds_something(path) || !io::is_part_of_light_field(path)) return;
+  if (!holds_something(path)) return;
+  if (!is_other_array(path) && !io::is_part_of_light_field(path)) return;
   throw IoError(path, "is part of a light field, which is not replaced; choose another name");
 }
 

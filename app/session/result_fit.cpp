@@ -33,15 +33,6 @@ std::string reason_against_fit(const std::string& who, const MapGeometry& maps,
                      other_name, other.grid.v, other.grid.u);
 }
 
-std::string reason_against_view(const ViewRectangle& covered, ViewIndex view,
-                                const std::string& who, const std::string& what) {
-  if (covered.grid.count() == 0) return who + " has no " + what;
-  const ViewIndex place{view.v - covered.first.v, view.u - covered.first.u};
-  if (covered.grid.contains(place)) return {};
-  return fmt::format("{} has {}×{} views from view {} on, but view {} was asked for", who,
-                     covered.grid.v, covered.grid.u, view_text(covered.first), view_text(view));
-}
-
 void check_fits(const Estimate& estimate, const LightField& light_field, const std::string& file) {
   const MapGeometry maps = geometry_of(estimate.field.disparity);
   std::string reason =

@@ -29,16 +29,6 @@ void check_fits(const ViewStack<std::int32_t>& labels, const LightField& light_f
                                              const std::string& other_name,
                                              const MapGeometry& other);
 
-/// "the result has 1×1 views from view 4,4 on, but view 0,0 was asked for": why a view cannot be
-/// shown, likewise; `what` names what there is none of if nothing is covered.
-[[nodiscard]] std::string reason_against_view(const ViewRectangle& covered, ViewIndex view,
-                                              const std::string& who, const std::string& what);
-/// Which views a stack has.
-template <class T>
-[[nodiscard]] ViewRectangle coverage_of(const ViewStack<T>& stack) {
-  return {stack.first(), stack.grid()};
-}
-
 /// Views of a light field as maps would cover them.
 [[nodiscard]] inline MapGeometry geometry_of(const LightField& light_field) {
   return {light_field.grid(), {}, light_field.height(), light_field.width()};

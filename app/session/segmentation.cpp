@@ -2,8 +2,8 @@
 #include "app/session/segmentation.h"
 
 #include "annotation/exchange.h"
+#include "app/session/judge.h"
 #include "app/session/result_files.h"
-#include "app/session/result_fit.h"
 #include "app/session/user_folders.h"
 #include "engine/core/error.h"
 #include "engine/core/hash.h"

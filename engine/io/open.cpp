@@ -162,9 +162,6 @@ bool reads_as_truth(const fs::path& map, const fs::path& input) {
 bool is_part_of_light_field(const fs::path& file) {
   try {
     const fs::path folder = folder_of(file);
-    const std::string suffix = suffix_of(file);
-    const bool is_array = suffix == ".npy" || suffix == ".npz" || suffix == ".mat";
-    if (is_array && find_reader(file, {}).path == file) return true;
     const fs::path found = find_reader(folder, {}).path;
     if (found.empty()) return false;
     if (reads_as_truth(file, found)) return true;

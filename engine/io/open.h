@@ -22,8 +22,8 @@ namespace episcope::io {
 [[nodiscard]] bool reads_as_truth(const std::filesystem::path& map,
                                   const std::filesystem::path& input);
 
-/// Whether a file is a view or the ground truth of the light field in its folder, or a light field
-/// in an array. False for a damaged one.
+/// Whether a file is a view or the ground truth of the light field in its folder. False for a
+/// damaged one.
 [[nodiscard]] bool is_part_of_light_field(const std::filesystem::path& file);
 
 }  // namespace episcope::io

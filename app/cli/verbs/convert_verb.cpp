@@ -363,7 +363,7 @@ void check_output(const ConvertRequest& request, const Target& target) {
   const bool is_archive = target.writer && std::string(target.writer->id) == "archive";
   refuse(request.views && target.writer, "--views has no effect on a light field", "add --to map");
   refuse(request.views == ViewSelection::All && !holds_all_views(target.map),
-         "--views all is for a form of several maps", "name it OUT.npy");
+         "--views all does not fit a form of one view", "name it OUT.npy");
   refuse(request.values == io::MapValues::Depth && !is_map,
          "--values depth is for a map (.pfm, .tiff, .npy)", "name a map");
   refuse(!request.labels.file.empty() && !target.writer, "--labels is for a light field",

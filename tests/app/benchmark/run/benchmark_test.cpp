@@ -210,7 +210,7 @@ class BenchmarkTest : public QObject {
         << "no JSON\n{\"key\": 3}\n[]\n{\"key\":\"0\",\"kind\":\"run\"}\n";
 
     QCOMPARE(run().reused, 1);
-    QCOMPARE(RunLog(options_.folder).records().size(), std::size_t{1});
+    QCOMPARE(RunLog(options_.folder).all().size(), std::size_t{1});
   }
 
   void records_surviveJson() {

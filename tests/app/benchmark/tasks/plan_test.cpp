@@ -116,7 +116,7 @@ class PlanTest : public QObject {
 
     const BenchmarkPlan other = installed(1000);
 
-    QCOMPARE(RunLog(options_.folder).records().size(), std::size_t{1});
+    QCOMPARE(RunLog(options_.folder).all().size(), std::size_t{1});
     QCOMPARE(plan_status(other, options_.folder).points.done, std::size_t{1});
     QCOMPARE(run_task(other, 0, options_, load(), Progress()).computed, std::size_t{3});
   }
@@ -197,7 +197,7 @@ class PlanTest : public QObject {
 
     QCOMPARE(report.failures().size(), std::size_t{4});
     QCOMPARE(report.failures()[0], std::string("st_ch_l on edge: not computed yet"));
-    QCOMPARE(RunLog(options_.folder).records().size(), std::size_t{0});
+    QCOMPARE(RunLog(options_.folder).all().size(), std::size_t{0});
   }
 
  private:
