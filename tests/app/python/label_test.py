@@ -60,7 +60,7 @@ def test_labels_are_saved_and_replace_nothing_else(strokes, labeling, tmp_path):
     for _ in range(2):
         labeling.save(tmp_path / "labels.h5")
     others = episcope.label(episcope.demo(SCENE), {(2, 2): strokes}, features="image", trees=8)
-    with pytest.raises(episcope.IoError, match="with --trees 16; choose another name, or pass overwrite=True"):
+    with pytest.raises(episcope.IoError, match="with trees 16; choose another name, or pass overwrite=True"):
         others.save(tmp_path / "labels.h5")
     others.save(tmp_path / "labels.h5", overwrite=True)
     more = strokes.copy()
