@@ -173,8 +173,5 @@ expect("as a folder" 0 ARGS convert axes.h5 folder/ --truth lf.h5 -q)
 expect("info of that" 0 OUT "not ground truth: estimated by axes from ../lf.h5\n" ARGS info folder)
 expect("without a slash" 0 ARGS convert axes.h5 folder_too --truth lf.h5 -q)
 expect("info of that" 0 OUT "not ground truth: estimated by axes from ../lf.h5\n" ARGS info folder_too)
-# An option that changes nothing is told.
-expect("a map that fits" 0 ERR "truth.pfm: --map-resize has no effect on this map" ARGS evaluate truth.pfm
-       --truth estimated.h5 --map-resize --json)
 expect("a form that cannot say so" 0 ERR "read as ground truth" ARGS convert axes.h5 theirs.npz
        --truth lf.h5)
