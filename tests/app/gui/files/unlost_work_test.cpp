@@ -220,7 +220,8 @@ void UnlostWorkTest::mapThatWasOpened_isAFileAlready() {
   const auto left = project_of(f.session());
   QVERIFY(scene_of(left.scenes.at(0), false).estimates.at(0).is_saved);
   f.saveAs(f.path("work.episcope"));
-  QVERIFY(read_project(f.path("work.episcope").toStdString()).scenes.at(0).estimates.at(0).is_saved);
+  QVERIFY(
+      read_project(f.path("work.episcope").toStdString()).scenes.at(0).estimates.at(0).is_saved);
 }
 
 }  // namespace episcope::in_unlost_work_test

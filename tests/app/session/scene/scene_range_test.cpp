@@ -57,10 +57,9 @@ class SceneRangeTest : public QObject {
     info.disparity_range = Interval{-0.5, 0.8};
     scene.light_field = with_info(*scene.light_field, info);
     for (const Interval range : {Interval{0, 0.1}, Interval{5, 6}, Interval{-1, 1}}) {
-      const EstimatePtr estimate =
-          run_estimator(scene, find_estimator("epi_l"), {{"range", IntervalOrAuto(range)}}, {},
-                        Progress())
-              .estimate;
+      const EstimatePtr estimate = run_estimator(scene, find_estimator("epi_l"),
+                                                 {{"range", IntervalOrAuto(range)}}, {}, Progress())
+                                       .estimate;
       const bool is_told = std::ranges::any_of(estimate->notes, [](const std::string& note) {
         return note.ends_with("range that the light field states, -0.50 … 0.80 px");
       });
