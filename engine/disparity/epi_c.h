@@ -9,8 +9,6 @@
 #include "engine/disparity/line_check.h"
 #include "engine/disparity/view_samples.h"
 
-#include <string>
-
 namespace episcope {
 
 /// Replaces the disparity of rays that other views see through. In an opaque scene the line of a

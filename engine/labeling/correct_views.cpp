@@ -11,8 +11,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <functional>
-#include <utility>
 #include <vector>
 
 namespace episcope {
