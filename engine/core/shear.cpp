@@ -246,6 +246,21 @@ std::string note_of(double focus_px) {
   return text.str();
 }
 
+template <class T>
+ViewStack<T> cropped(const ViewStack<T>& stack, const PixelRect& part, const Progress& progress) {
+  ViewStack<T> kept(stack.grid(), part.y1 - part.y0, part.x1 - part.x0, stack.channels());
+  const std::size_t row_size = static_cast<std::size_t>(kept.width()) * kept.channels();
+  parallel_for(kept.grid().count(), progress, [&](int i) {
+    const auto from = stack.view(stack.view_at(i));
+    const auto to = kept.view(kept.view_at(i));
+    for (int y = 0; y < kept.height(); ++y) {
+      const T* row = from.row(part.y0 + y) + static_cast<std::size_t>(part.x0) * kept.channels();
+      std::copy_n(row, row_size, to.row(y));
+    }
+  });
+  return kept;
+}
+
 }  // namespace
 
 LightFieldPtr sheared(const LightField& light_field, double focus_px, const Progress& progress) {
@@ -375,25 +390,6 @@ Estimate sheared(const Estimate& estimate, const ShearedInto& into, double focus
   result.notes.push_back(note_of(focus_px));
   return result;
 }
-
-namespace {
-
-template <class T>
-ViewStack<T> cropped(const ViewStack<T>& stack, const PixelRect& part, const Progress& progress) {
-  ViewStack<T> kept(stack.grid(), part.y1 - part.y0, part.x1 - part.x0, stack.channels());
-  const std::size_t row_size = static_cast<std::size_t>(kept.width()) * kept.channels();
-  parallel_for(kept.grid().count(), progress, [&](int i) {
-    const auto from = stack.view(stack.view_at(i));
-    const auto to = kept.view(kept.view_at(i));
-    for (int y = 0; y < kept.height(); ++y) {
-      const T* row = from.row(part.y0 + y) + static_cast<std::size_t>(part.x0) * kept.channels();
-      std::copy_n(row, row_size, to.row(y));
-    }
-  });
-  return kept;
-}
-
-}  // namespace
 
 LightField cropped(const LightField& lf, const PixelRect& part, const Progress& progress) {
   assert(!part.empty() && part.y0 >= 0 && part.x0 >= 0 && part.y1 <= lf.height() &&

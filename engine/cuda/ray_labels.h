@@ -51,7 +51,7 @@ struct RayLabelsAnswer {
   int iterations = 0;
 };
 
-/// Writes the labels of all views, 0 … L − 1, as `smooth_rays` and `smooth_views`
+/// Writes the labels of all views, 0 … L − 1, as Regularizer::Rayspace and ::View
 /// (engine/labeling/rays) do on the CPU; there must be two or more labels. Throws DeviceFailure,
 /// Cancelled.
 [[nodiscard]] RayLabelsAnswer label_rays(const RayLabelsTask& task, const Progress& progress,

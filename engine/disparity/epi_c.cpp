@@ -20,7 +20,6 @@
 #include <vector>
 
 namespace episcope {
-
 namespace {
 
 // One view that lines of another reach, by `steps` in its row or column of the grid.
@@ -131,35 +130,6 @@ class Replacer {
   int least_views_ = kOccludedMinViews;
   ViewIndex view_;
 };
-
-}  // namespace
-
-long replace_occluded(const PackedViews& views, ViewStack<float>& disparity,
-                      const ViewStack<float>& confidence, const Progress& progress) {
-  const ViewStack<float> before = disparity.clone();
-  const float noise = residual_noise(views, before) + kMinDifference * kMinDifference;
-  std::vector<long> changed(disparity.grid().count());
-  parallel_for_workers(disparity.grid().count(), progress, [&] {
-    return [&, replacer = Replacer(views, before, confidence, noise)](int i) mutable {
-      const ViewIndex view = disparity.view_at(i);
-      replacer.begin(view);
-      for (int y = 0; y < before.height(); ++y) {
-        if (y % 16 == 0) progress.check();
-        changed[i] += replacer.replace(y, disparity.view(view).row(y));
-      }
-    };
-  });
-  return std::accumulate(changed.begin(), changed.end(), 0L);
-}
-
-void replace_occluded(const LightField& lf, ViewStack<float>& disparity,
-                      const ViewStack<float>& confidence, const Progress& progress, Device device) {
-  if (device == Device::Cuda) return cuda::replace_occluded(lf, disparity, confidence, progress);
-  replace_occluded(pack_views(lf, progress.part(0, 0.25)), disparity, confidence,
-                   progress.part(0.25, 1));
-}
-
-namespace {
 
 // A line violates the ordering where D u is below this, px.
 constexpr float kOrderingViolation = -0.05F;
@@ -438,6 +408,31 @@ std::string ordering_note(double before, double after) {
 }
 
 }  // namespace
+
+long replace_occluded(const PackedViews& views, ViewStack<float>& disparity,
+                      const ViewStack<float>& confidence, const Progress& progress) {
+  const ViewStack<float> before = disparity.clone();
+  const float noise = residual_noise(views, before) + kMinDifference * kMinDifference;
+  std::vector<long> changed(disparity.grid().count());
+  parallel_for_workers(disparity.grid().count(), progress, [&] {
+    return [&, replacer = Replacer(views, before, confidence, noise)](int i) mutable {
+      const ViewIndex view = disparity.view_at(i);
+      replacer.begin(view);
+      for (int y = 0; y < before.height(); ++y) {
+        if (y % 16 == 0) progress.check();
+        changed[i] += replacer.replace(y, disparity.view(view).row(y));
+      }
+    };
+  });
+  return std::accumulate(changed.begin(), changed.end(), 0L);
+}
+
+void replace_occluded(const LightField& lf, ViewStack<float>& disparity,
+                      const ViewStack<float>& confidence, const Progress& progress, Device device) {
+  if (device == Device::Cuda) return cuda::replace_occluded(lf, disparity, confidence, progress);
+  replace_occluded(pack_views(lf, progress.part(0, 0.25)), disparity, confidence,
+                   progress.part(0.25, 1));
+}
 
 double denoise_with_ordering(const LightField& lf, const EpiCParameters& parameters,
                              const ViewStack<float>& observed, Estimate& estimate,

@@ -79,6 +79,158 @@ PairCosts costs_at_old_label(int f_p, int f_q, int alpha, CutGraph::Cost gain) {
   return {0, looks_through, 0, 0};
 }
 
+// λ of the published heuristic, in K [KMT14].
+constexpr double kPublishedSmoothness = 0.2;
+
+// Share of the time that is left after `cycle` cycles: most labels find their place in the first.
+double time_left(int cycle) {
+  return std::pow(0.2, cycle);
+}
+
+// The middle label, those half-way to the ends, and so on.
+std::vector<int> coarse_to_fine(int labels) {
+  std::vector<int> order;
+  std::vector<char> is_listed(labels, 0);
+  for (int step = labels; step >= 1; step /= 2) {
+    for (int label = step / 2; label < labels; label += step) {
+      if (is_listed[label] == 0) order.push_back(label);
+      is_listed[label] = 1;
+    }
+  }
+  for (int label = 0; label < labels; ++label) {
+    if (is_listed[label] == 0) order.push_back(label);
+  }
+  return order;
+}
+
+struct Expanded {
+  int cycles = 0;  // begun
+  bool converged = false;
+  std::int64_t change = 0;  // of the energy
+};
+
+Expanded expand_all(const Kz02Parameters& parameters, LabelExpansion& expansion,
+                    const Progress& progress) {
+  Expanded result;
+  const std::vector<int> order = coarse_to_fine(parameters.labels);
+  int unchanged = 0;  // labels in succession
+  for (; result.cycles < parameters.cycles && !result.converged; ++result.cycles) {
+    const Progress cycle =
+        progress.part(1 - time_left(result.cycles), 1 - time_left(result.cycles + 1));
+    for (std::size_t i = 0; i < order.size() && !result.converged; ++i) {
+      const auto change = expansion.expand(order[i], cycle);
+      if (!change) return result;
+      result.change += *change;
+      unchanged = *change < 0 ? 0 : unchanged + 1;
+      result.converged = unchanged >= parameters.labels;
+      cycle.report(static_cast<double>(i + 1) / static_cast<double>(order.size()));
+    }
+  }
+  progress.report(1);
+  return result;
+}
+
+// Disparities of the labels, and as confidence which share of the possible gain is reached.
+void read_labels(const LabelExpansion& expansion, const Interactions& interactions,
+                 const std::vector<float>& labels, ViewIndex view, Estimate& estimate) {
+  const Image<std::int16_t>& f = expansion.labels()[0];
+  const int sides = static_cast<int>(interactions.sides().size());
+  estimate.field.disparity = ViewStack<float>({1, 1}, f.height(), f.width(), 1, view);
+  estimate.confidence = ViewStack<float>({1, 1}, f.height(), f.width(), 1, view);
+  const auto most = static_cast<float>(sides * Interactions::kUnit);
+  for (int y = 0; y < f.height(); ++y) {
+    for (int x = 0; x < f.width(); ++x) {
+      int gain = 0;
+      for (int side = 0; side < sides; ++side) gain -= expansion.gain(side, y, x);
+      estimate.field.disparity.view(view).at(y, x) = labels[f.at(y, x)];
+      estimate.confidence.view(view).at(y, x) = static_cast<float>(gain) / most;
+    }
+  }
+}
+
+// Moves each pixel between its label and the next by the matching costs over all views.
+void refine(const LightField& lf, const Kz02Parameters& parameters, const Image<std::int16_t>& f,
+            ViewIndex view, Estimate& estimate, const Progress& progress) {
+  const StereoCosts costs = prepare_stereo(
+      lf, MatchedViews::All, {.labels = parameters.labels, .range = estimate.range, .view = view},
+      progress.part(0, 0.1));
+  const float step = costs.labels[1] - costs.labels[0];
+  const ImageView<float> disparity = estimate.field.disparity.view(view);
+  const int rows = stereo_band_rows(lf.height());
+  parallel_for_workers((lf.height() + rows - 1) / rows, progress.part(0.1, 1), [&] {
+    return [&, source = StereoCostRows(lf, costs)](int i) mutable {
+      const int first = i * rows;
+      const auto band = source.compute(first, std::min(rows, lf.height() - first), progress);
+      for (int y = 0; y < band.height; ++y) {
+        for (int x = 0; x < band.width; ++x) {
+          const int label = f.at(first + y, x);
+          if (label == 0 || label + 1 == band.layers) continue;
+          disparity.at(first + y, x) +=
+              step * sub_label_offset(band.at(y, label - 1, x), band.at(y, label, x),
+                                      band.at(y, label + 1, x), parameters.refinement);
+        }
+      }
+    };
+  });
+}
+
+Schema<Matching> matching_schema() {
+  using P = Matching;
+  return Schema<P>()
+      .choice("comparison", &P::comparison,
+              {"Comparison",
+               "Whether views are compared at the nearest pixels or interpolated between them"})
+      .real("limit", &P::limit,
+            {"Match limit K",
+             "Two pixels can see the same point if their squared difference, the mean over the "
+             "channels, is less; 0 finds it by the rule below",
+             "(1/255)²"},
+            {0, 10000})
+      .choice(
+          "limit_rule", &P::rule,
+          {"Automatic limit K",
+           "noise: three times the least difference of a pixel at any label, the median over "
+           "pixels, at least 30; quarter: the mean of what a quarter of the labels fall below"});
+}
+
+Schema<Kz02Parameters> kz02_schema() {
+  using P = Kz02Parameters;
+  return Schema<P>()
+      .part(&P::profile, profile_schema())
+      .integer("labels", &P::labels,
+               {"Disparity steps", "Number of equidistant disparities tested"}, {2, 512, true})
+      .integer("distance", &P::distance,
+               {"Side view distance",
+                "How far the views on the left, on the right, above and below are from the "
+                "estimated one. Farther views tell disparities apart better but see less of what "
+                "is partly occluded",
+                "view steps"},
+               {1, 16})
+      .part(&P::matching, matching_schema())
+      .real("smoothness", &P::smoothness,
+            {"Smoothness λ",
+             "Cost of a jump by one label between neighbors, as a multiple of K; "
+             "three times as much where they have the same color"},
+            {0, 4})
+      .integer("truncation", &P::truncation,
+               {"Truncation T", "Jumps by more steps cost no more", "steps"}, {1, 64, true})
+      .integer("cycles", &P::cycles,
+               {"Maximum cycles", "How often every label is expanded, at most"}, {1, 100, true})
+      .choice("refinement", &P::refinement,
+              {"Refinement",
+               "How the disparity is interpolated between labels, from the costs over all views"})
+      .interval("range", &P::range, {"Disparity range", kRangeHelp, "px"}, {-20, 20})
+      .view("view", &P::view,
+            {"View", "Row and column of the view to estimate; auto = center view"})
+      .search("smoothness", {0.005, 0.01, 0.02, 0.05, 0.2})
+      .search("distance", {2, 3, 4})
+      .preset(kProfileKey, kPaperProfile,
+              {{"comparison", std::string("whole_pixels")},
+               {"limit_rule", std::string("quarter")},
+               {"refinement", std::string("none")},
+               {"smoothness", kPublishedSmoothness}});
+}
+
 }  // namespace
 
 LabelExpansion::LabelExpansion(const MultiCameraEnergy& energy, CameraLabels start)
@@ -240,162 +392,6 @@ void LabelExpansion::take(int alpha, const MinimalCut& cut) {
     }
   }
 }
-
-namespace {
-
-// λ of the published heuristic, in K [KMT14].
-constexpr double kPublishedSmoothness = 0.2;
-
-// Share of the time that is left after `cycle` cycles: most labels find their place in the first.
-double time_left(int cycle) {
-  return std::pow(0.2, cycle);
-}
-
-// The middle label, those half-way to the ends, and so on.
-std::vector<int> coarse_to_fine(int labels) {
-  std::vector<int> order;
-  std::vector<char> is_listed(labels, 0);
-  for (int step = labels; step >= 1; step /= 2) {
-    for (int label = step / 2; label < labels; label += step) {
-      if (is_listed[label] == 0) order.push_back(label);
-      is_listed[label] = 1;
-    }
-  }
-  for (int label = 0; label < labels; ++label) {
-    if (is_listed[label] == 0) order.push_back(label);
-  }
-  return order;
-}
-
-struct Expanded {
-  int cycles = 0;  // begun
-  bool converged = false;
-  std::int64_t change = 0;  // of the energy
-};
-
-Expanded expand_all(const Kz02Parameters& parameters, LabelExpansion& expansion,
-                    const Progress& progress) {
-  Expanded result;
-  const std::vector<int> order = coarse_to_fine(parameters.labels);
-  int unchanged = 0;  // labels in succession
-  for (; result.cycles < parameters.cycles && !result.converged; ++result.cycles) {
-    const Progress cycle =
-        progress.part(1 - time_left(result.cycles), 1 - time_left(result.cycles + 1));
-    for (std::size_t i = 0; i < order.size() && !result.converged; ++i) {
-      const auto change = expansion.expand(order[i], cycle);
-      if (!change) return result;
-      result.change += *change;
-      unchanged = *change < 0 ? 0 : unchanged + 1;
-      result.converged = unchanged >= parameters.labels;
-      cycle.report(static_cast<double>(i + 1) / static_cast<double>(order.size()));
-    }
-  }
-  progress.report(1);
-  return result;
-}
-
-// Disparities of the labels, and as confidence which share of the possible gain is reached.
-void read_labels(const LabelExpansion& expansion, const Interactions& interactions,
-                 const std::vector<float>& labels, ViewIndex view, Estimate& estimate) {
-  const Image<std::int16_t>& f = expansion.labels()[0];
-  const int sides = static_cast<int>(interactions.sides().size());
-  estimate.field.disparity = ViewStack<float>({1, 1}, f.height(), f.width(), 1, view);
-  estimate.confidence = ViewStack<float>({1, 1}, f.height(), f.width(), 1, view);
-  const auto most = static_cast<float>(sides * Interactions::kUnit);
-  for (int y = 0; y < f.height(); ++y) {
-    for (int x = 0; x < f.width(); ++x) {
-      int gain = 0;
-      for (int side = 0; side < sides; ++side) gain -= expansion.gain(side, y, x);
-      estimate.field.disparity.view(view).at(y, x) = labels[f.at(y, x)];
-      estimate.confidence.view(view).at(y, x) = static_cast<float>(gain) / most;
-    }
-  }
-}
-
-// Moves each pixel between its label and the next by the matching costs over all views.
-void refine(const LightField& lf, const Kz02Parameters& parameters, const Image<std::int16_t>& f,
-            ViewIndex view, Estimate& estimate, const Progress& progress) {
-  const StereoCosts costs = prepare_stereo(
-      lf, MatchedViews::All, {.labels = parameters.labels, .range = estimate.range, .view = view},
-      progress.part(0, 0.1));
-  const float step = costs.labels[1] - costs.labels[0];
-  const ImageView<float> disparity = estimate.field.disparity.view(view);
-  const int rows = stereo_band_rows(lf.height());
-  parallel_for_workers((lf.height() + rows - 1) / rows, progress.part(0.1, 1), [&] {
-    return [&, source = StereoCostRows(lf, costs)](int i) mutable {
-      const int first = i * rows;
-      const auto band = source.compute(first, std::min(rows, lf.height() - first), progress);
-      for (int y = 0; y < band.height; ++y) {
-        for (int x = 0; x < band.width; ++x) {
-          const int label = f.at(first + y, x);
-          if (label == 0 || label + 1 == band.layers) continue;
-          disparity.at(first + y, x) +=
-              step * sub_label_offset(band.at(y, label - 1, x), band.at(y, label, x),
-                                      band.at(y, label + 1, x), parameters.refinement);
-        }
-      }
-    };
-  });
-}
-
-Schema<Matching> matching_schema() {
-  using P = Matching;
-  return Schema<P>()
-      .choice("comparison", &P::comparison,
-              {"Comparison",
-               "Whether views are compared at the nearest pixels or interpolated between them"})
-      .real("limit", &P::limit,
-            {"Match limit K",
-             "Two pixels can see the same point if their squared difference, the mean over the "
-             "channels, is less; 0 finds it by the rule below",
-             "(1/255)²"},
-            {0, 10000})
-      .choice(
-          "limit_rule", &P::rule,
-          {"Automatic limit K",
-           "noise: three times the least difference of a pixel at any label, the median over "
-           "pixels, at least 30; quarter: the mean of what a quarter of the labels fall below"});
-}
-
-Schema<Kz02Parameters> kz02_schema() {
-  using P = Kz02Parameters;
-  return Schema<P>()
-      .part(&P::profile, profile_schema())
-      .integer("labels", &P::labels,
-               {"Disparity steps", "Number of equidistant disparities tested"}, {2, 512, true})
-      .integer("distance", &P::distance,
-               {"Side view distance",
-                "How far the views on the left, on the right, above and below are from the "
-                "estimated one. Farther views tell disparities apart better but see less of what "
-                "is partly occluded",
-                "view steps"},
-               {1, 16})
-      .part(&P::matching, matching_schema())
-      .real("smoothness", &P::smoothness,
-            {"Smoothness λ",
-             "Cost of a jump by one label between neighbors, as a multiple of K; "
-             "three times as much where they have the same color"},
-            {0, 4})
-      .integer("truncation", &P::truncation,
-               {"Truncation T", "Jumps by more steps cost no more", "steps"}, {1, 64, true})
-      .integer("cycles", &P::cycles,
-               {"Maximum cycles", "How often every label is expanded, at most"}, {1, 100, true})
-      .choice("refinement", &P::refinement,
-              {"Refinement",
-               "How the disparity is interpolated between labels, from the costs over all views"})
-      .interval("range", &P::range, {"Disparity range", kRangeHelp, "px"}, {-20, 20})
-      .view("view", &P::view,
-            {"View", "Row and column of the view to estimate; auto = center view"})
-      .search("smoothness", {0.005, 0.01, 0.02, 0.05, 0.2})
-      .search("distance", {2, 3, 4})
-      .preset(kProfileKey, kPaperProfile,
-              {{"comparison", std::string("whole_pixels")},
-               {"limit_rule", std::string("quarter")},
-               {"refinement", std::string("none")},
-               {"smoothness", kPublishedSmoothness}});
-}
-
-}  // namespace
 
 Estimate estimate_kz02(const LightField& lf, const Kz02Parameters& parameters,
                        const Progress& progress) {

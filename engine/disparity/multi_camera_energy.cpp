@@ -25,40 +25,6 @@ SideView side_view(ViewIndex view, ViewIndex reference, const std::vector<float>
   return side;
 }
 
-}  // namespace
-
-std::vector<SideView> side_views(GridShape grid, ViewIndex reference, int distance,
-                                 const std::vector<float>& labels) {
-  std::vector<SideView> sides;
-  const auto add = [&](int v, int u) {
-    const ViewIndex view{std::clamp(v, 0, grid.v - 1), std::clamp(u, 0, grid.u - 1)};
-    if (view != reference) sides.push_back(side_view(view, reference, labels));
-  };
-  add(reference.v, reference.u - distance);
-  add(reference.v, reference.u + distance);
-  add(reference.v - distance, reference.u);
-  add(reference.v + distance, reference.u);
-  return sides;
-}
-
-CameraImage::CameraImage(const LightField& lf, ViewIndex view) {
-  const int height = lf.height(), width = lf.width(), channels = lf.channels();
-  const Image<float> samples = lf.view_as_float(view);
-  for (int c = 0; c < channels; ++c) {
-    Image<float>& plane = planes_.emplace_back(height + 2 * kMargin, width + 2 * kMargin);
-    for (int row = 0; row < plane.height(); ++row) {
-      const int y = std::clamp(row - kMargin, 0, height - 1);
-      for (int column = 0; column < plane.width(); ++column) {
-        const int x = std::clamp(column - kMargin, 0, width - 1);
-        plane.at(row, column) = lf.is_valid(view, y, x) ? 255 * samples.at(y, x, c)
-                                                        : std::numeric_limits<float>::quiet_NaN();
-      }
-    }
-  }
-}
-
-namespace {
-
 // Rows in which K is measured, and the least it can be: a step of 8-bit samples, squared.
 constexpr int kProbedEnergyRows = 48;
 constexpr double kMinLimit = 1;
@@ -100,7 +66,57 @@ void add_squares(const float* samples, const float* others, int count, float sca
   }
 }
 
+// Neighbors that differ less belong to one surface, so more speaks against a jump there.
+constexpr float kAlike = 8;
+constexpr std::int32_t kAlikeFactor = 3;
+
+// λ_pq of every pixel and the one `dy` rows below and `dx` columns to the right.
+Image<std::int32_t> neighbor_weights(const CameraImage& image, int height, int width, int dy,
+                                     int dx, std::int32_t weight) {
+  Image<std::int32_t> weights(height, width);
+  for (int y = 0; y < height - dy; ++y) {
+    for (int x = 0; x < width - dx; ++x) {
+      bool alike = true;
+      for (int c = 0; c < image.channels(); ++c) {
+        alike = alike && std::fabs(image.row(c, y)[x] - image.row(c, y + dy)[x + dx]) < kAlike;
+      }
+      weights.at(y, x) = alike ? kAlikeFactor * weight : weight;
+    }
+  }
+  return weights;
+}
+
 }  // namespace
+
+std::vector<SideView> side_views(GridShape grid, ViewIndex reference, int distance,
+                                 const std::vector<float>& labels) {
+  std::vector<SideView> sides;
+  const auto add = [&](int v, int u) {
+    const ViewIndex view{std::clamp(v, 0, grid.v - 1), std::clamp(u, 0, grid.u - 1)};
+    if (view != reference) sides.push_back(side_view(view, reference, labels));
+  };
+  add(reference.v, reference.u - distance);
+  add(reference.v, reference.u + distance);
+  add(reference.v - distance, reference.u);
+  add(reference.v + distance, reference.u);
+  return sides;
+}
+
+CameraImage::CameraImage(const LightField& lf, ViewIndex view) {
+  const int height = lf.height(), width = lf.width(), channels = lf.channels();
+  const Image<float> samples = lf.view_as_float(view);
+  for (int c = 0; c < channels; ++c) {
+    Image<float>& plane = planes_.emplace_back(height + 2 * kMargin, width + 2 * kMargin);
+    for (int row = 0; row < plane.height(); ++row) {
+      const int y = std::clamp(row - kMargin, 0, height - 1);
+      for (int column = 0; column < plane.width(); ++column) {
+        const int x = std::clamp(column - kMargin, 0, width - 1);
+        plane.at(row, column) = lf.is_valid(view, y, x) ? 255 * samples.at(y, x, c)
+                                                        : std::numeric_limits<float>::quiet_NaN();
+      }
+    }
+  }
+}
 
 Names<PixelComparison> names_of(PixelComparison) {
   return {{PixelComparison::BetweenPixels, "between_pixels", "between pixels"},
@@ -202,30 +218,6 @@ void Interactions::find_limit(LimitRule rule, const Progress& progress) {
       std::accumulate(all.begin(), all.end(), 0.0) / static_cast<double>(all.size());
   limit_ = std::max(limit_, rule == LimitRule::Quarter ? mean : kLimitInLeast * quantile(all, 0.5));
 }
-
-namespace {
-
-// Neighbors that differ less belong to one surface, so more speaks against a jump there.
-constexpr float kAlike = 8;
-constexpr std::int32_t kAlikeFactor = 3;
-
-// λ_pq of every pixel and the one `dy` rows below and `dx` columns to the right.
-Image<std::int32_t> neighbor_weights(const CameraImage& image, int height, int width, int dy,
-                                     int dx, std::int32_t weight) {
-  Image<std::int32_t> weights(height, width);
-  for (int y = 0; y < height - dy; ++y) {
-    for (int x = 0; x < width - dx; ++x) {
-      bool alike = true;
-      for (int c = 0; c < image.channels(); ++c) {
-        alike = alike && std::fabs(image.row(c, y)[x] - image.row(c, y + dy)[x + dx]) < kAlike;
-      }
-      weights.at(y, x) = alike ? kAlikeFactor * weight : weight;
-    }
-  }
-  return weights;
-}
-
-}  // namespace
 
 MultiCameraEnergy::MultiCameraEnergy(const Interactions& interactions, CameraSmoothness smoothness)
     : interactions_(interactions), truncation_(smoothness.truncation) {

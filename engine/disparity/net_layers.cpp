@@ -9,7 +9,6 @@
 #include <cassert>
 
 namespace episcope {
-
 namespace {
 
 // Of a place of a source, in products: about what evidence of 80 views costs.
@@ -33,6 +32,32 @@ struct Pair {
 Pair pair_at(int place, int extent) {
   const int near = place / 2;
   return {near, std::clamp(place % 2 == 0 ? near - 1 : near + 1, 0, extent - 1)};
+}
+
+// The taps of a row that lie within the input.
+void add_taps(const NetLayer& layer, const NetRows& input, int y, int z, NetConvolutionRow& row) {
+  const NetLayerForm& form = layer.form;
+  const int half = form.kernel / 2;
+  const int depth_half = form.depth_taps() / 2;
+  const int depth_stride = form.dimensions == 3 ? form.stride : 1;
+  int tap = 0;
+  for (int i = -depth_half; i <= depth_half; ++i) {
+    for (int j = -half; j <= half; ++j) {
+      const int from_z = z * depth_stride + i * form.dilation;
+      const int from_y = y * form.stride + j * form.dilation;
+      const bool is_within = from_z >= 0 && from_z < input.shape().depth && from_y >= 0 &&
+                             from_y < input.shape().height;
+      for (int k = -half; k <= half; ++k, ++tap) {
+        if (!is_within) continue;
+        row.taps[row.tap_count++] = {input.at(from_y, from_z) + k * form.dilation * input.step(),
+                                     layer.weights_data() + tap * layer.tap_stride()};
+      }
+    }
+  }
+}
+
+const NetKernel& kernels() {
+  return EPISCOPE_CHOOSE_KERNEL(best_isa(), kNetKernel);
 }
 
 }  // namespace
@@ -198,36 +223,6 @@ void NetStream::compute(const Step& step, const Progress& progress) {
     }
   });
 }
-
-namespace {
-
-// The taps of a row that lie within the input.
-void add_taps(const NetLayer& layer, const NetRows& input, int y, int z, NetConvolutionRow& row) {
-  const NetLayerForm& form = layer.form;
-  const int half = form.kernel / 2;
-  const int depth_half = form.depth_taps() / 2;
-  const int depth_stride = form.dimensions == 3 ? form.stride : 1;
-  int tap = 0;
-  for (int i = -depth_half; i <= depth_half; ++i) {
-    for (int j = -half; j <= half; ++j) {
-      const int from_z = z * depth_stride + i * form.dilation;
-      const int from_y = y * form.stride + j * form.dilation;
-      const bool is_within = from_z >= 0 && from_z < input.shape().depth && from_y >= 0 &&
-                             from_y < input.shape().height;
-      for (int k = -half; k <= half; ++k, ++tap) {
-        if (!is_within) continue;
-        row.taps[row.tap_count++] = {input.at(from_y, from_z) + k * form.dilation * input.step(),
-                                     layer.weights_data() + tap * layer.tap_stride()};
-      }
-    }
-  }
-}
-
-const NetKernel& kernels() {
-  return EPISCOPE_CHOOSE_KERNEL(best_isa(), kNetKernel);
-}
-
-}  // namespace
 
 // What all rows of a convolution have in common.
 NetConvolutionRow NetStream::row_of(const Node& node) const {

@@ -160,41 +160,6 @@ void carry(const std::vector<Estimate>& maps, ViewIndex to, const Target& out) {
   fill(out);
 }
 
-}  // namespace
-
-PropagatedMaps propagate_to_views(const std::vector<Estimate>& maps, ViewRectangle views,
-                                  const Progress& progress) {
-  if (maps.empty()) throw InvalidInput("there is no map to carry to other views");
-  const ViewStack<float>& map = maps.front().field.disparity;
-  const auto stack = [&] {
-    return ViewStack<float>(views.grid, map.height(), map.width(), 1, views.first);
-  };
-  PropagatedMaps all{stack(), stack()};
-  progress.step("propagating to other views");
-  parallel_for(views.grid.count(), progress, [&](int i) {
-    const ViewIndex view = views.grid.view_at(i, views.first);
-    carry(maps, view, {all.disparity.view(view), all.confidence.view(view)});
-  });
-  return all;
-}
-
-void put_map(const Estimate& map, int first_row, ViewStack<float>& disparity,
-             ViewStack<float>& confidence) {
-  const ViewIndex view = map.field.disparity.first();
-  if (!disparity.contains(view)) return;
-  const auto put = [&](const ViewStack<float>& from, ViewStack<float>& to) {
-    std::copy_n(from.view(view).row(first_row), to.view_size(), to.view(view).data);
-  };
-  put(map.field.disparity, disparity);
-  put(map.confidence, confidence);
-}
-
-std::string propagated_note(std::size_t views) {
-  return fmt::format(finding_text("run.propagated"), views);
-}
-
-namespace {
-
 constexpr int kCarriedRadius = 2;
 constexpr int kCarriedBandRows = 16;
 constexpr float kLeastCarriedStep = 0.2F;  // px
@@ -351,6 +316,37 @@ class Chooser {
 };
 
 }  // namespace
+
+PropagatedMaps propagate_to_views(const std::vector<Estimate>& maps, ViewRectangle views,
+                                  const Progress& progress) {
+  if (maps.empty()) throw InvalidInput("there is no map to carry to other views");
+  const ViewStack<float>& map = maps.front().field.disparity;
+  const auto stack = [&] {
+    return ViewStack<float>(views.grid, map.height(), map.width(), 1, views.first);
+  };
+  PropagatedMaps all{stack(), stack()};
+  progress.step("propagating to other views");
+  parallel_for(views.grid.count(), progress, [&](int i) {
+    const ViewIndex view = views.grid.view_at(i, views.first);
+    carry(maps, view, {all.disparity.view(view), all.confidence.view(view)});
+  });
+  return all;
+}
+
+void put_map(const Estimate& map, int first_row, ViewStack<float>& disparity,
+             ViewStack<float>& confidence) {
+  const ViewIndex view = map.field.disparity.first();
+  if (!disparity.contains(view)) return;
+  const auto put = [&](const ViewStack<float>& from, ViewStack<float>& to) {
+    std::copy_n(from.view(view).row(first_row), to.view_size(), to.view(view).data);
+  };
+  put(map.field.disparity, disparity);
+  put(map.confidence, confidence);
+}
+
+std::string propagated_note(std::size_t views) {
+  return fmt::format(finding_text("run.propagated"), views);
+}
 
 void choose_propagated_sides(const PackedViews& views, float cap, Estimate& estimate,
                              const Progress& progress) {

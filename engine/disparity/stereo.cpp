@@ -205,60 +205,6 @@ Schema<StereoSmoothParameters> stereo_smooth_schema(MatchedViews views) {
       .preset_search(kProfileKey, kPaperProfile, "lambda", {0.02, 0.05, 0.1, 0.2, 0.4, 0.8});
 }
 
-}  // namespace
-
-Estimate estimate_stereo_local(const LightField& lf, MatchedViews views,
-                               const StereoLocalParameters& parameters, const Progress& progress,
-                               Device device) {
-  const StereoCosts costs =
-      prepare_stereo(lf, views, parameters.matching, progress.part(0, 0.1), device);
-  Estimate estimate;
-  estimate.range = costs.range;
-  if (costs.matcher) {
-    estimate.field.disparity = ViewStack<float>({1, 1}, lf.height(), lf.width(), 1, costs.view);
-    estimate.confidence = ViewStack<float>({1, 1}, lf.height(), lf.width(), 1, costs.view);
-    choose_on_device(lf, costs, parameters.refinement, estimate, progress.part(0.1, 1));
-  } else {
-    BlockMaps maps = choose_labels(lf, costs, parameters.refinement,
-                                   {{costs.view, {1, 1}}, 0, lf.height()}, progress.part(0.1, 1));
-    estimate.field = std::move(maps.field);
-    estimate.confidence = std::move(maps.confidence);
-  }
-  estimate.notes = cost_notes(costs);
-  return estimate;
-}
-
-Estimate estimate_stereo_smooth(const LightField& lf, MatchedViews views,
-                                const StereoSmoothParameters& parameters, const Progress& progress,
-                                Device device) {
-  Estimate estimate =
-      estimate_stereo_local(lf, views, parameters.local, progress.part(0, 0.85), device);
-  denoise(lf, parameters.denoising, estimate, progress.part(0.85, 1), DataWeight{}.minimum,
-          static_cast<float>(parameters.map_noise), device);
-  ViewStack<float>& maps = estimate.field.disparity;
-  fill_islands(parameters.islands, progress.part(1, 1), maps.view(maps.first()));
-  return estimate;
-}
-
-Schema<StereoGlobalParameters> stereo_global_schema(MatchedViews views) {
-  using P = StereoGlobalParameters;
-  return Schema<P>()
-      .part(&P::labeling, global_labeling_schema())
-      .part(&P::matching, stereo_cost_schema(views))
-      .part(&P::islands, island_schema())
-      .begin_with(kProfileKey)
-      .search("smoothness", {0.3, 0.6, 1.2, 2.4, 5, 10})
-      .search("edge_strength", {0, 25})
-      .search("epsilon", {0, 0.02, 0.05, kUncapped})
-      .preset(kProfileKey, kPaperProfile, plain_labeling())
-      .preset(kProfileKey, kPaperProfile, plain_islands())
-      .preset(kProfileKey, kPaperProfile, {{"smoothness", kPaperSmoothness}})
-      .preset_search(kProfileKey, kPaperProfile, "smoothness",
-                     {0.1, 0.2, 0.3, 0.4, 0.6, 0.8, 1.2, 1.6, 2.4});
-}
-
-namespace {
-
 void label_stereo(const LightField& lf, const StereoCosts& stereo,
                   const GlobalLabelingParameters& labeling, Estimate& estimate,
                   const Progress& progress) {
@@ -327,6 +273,56 @@ EstimatorInfo stereo_info(MatchedViews views, char kind, std::string summary,
 }
 
 }  // namespace
+
+Estimate estimate_stereo_local(const LightField& lf, MatchedViews views,
+                               const StereoLocalParameters& parameters, const Progress& progress,
+                               Device device) {
+  const StereoCosts costs =
+      prepare_stereo(lf, views, parameters.matching, progress.part(0, 0.1), device);
+  Estimate estimate;
+  estimate.range = costs.range;
+  if (costs.matcher) {
+    estimate.field.disparity = ViewStack<float>({1, 1}, lf.height(), lf.width(), 1, costs.view);
+    estimate.confidence = ViewStack<float>({1, 1}, lf.height(), lf.width(), 1, costs.view);
+    choose_on_device(lf, costs, parameters.refinement, estimate, progress.part(0.1, 1));
+  } else {
+    BlockMaps maps = choose_labels(lf, costs, parameters.refinement,
+                                   {{costs.view, {1, 1}}, 0, lf.height()}, progress.part(0.1, 1));
+    estimate.field = std::move(maps.field);
+    estimate.confidence = std::move(maps.confidence);
+  }
+  estimate.notes = cost_notes(costs);
+  return estimate;
+}
+
+Estimate estimate_stereo_smooth(const LightField& lf, MatchedViews views,
+                                const StereoSmoothParameters& parameters, const Progress& progress,
+                                Device device) {
+  Estimate estimate =
+      estimate_stereo_local(lf, views, parameters.local, progress.part(0, 0.85), device);
+  denoise(lf, parameters.denoising, estimate, progress.part(0.85, 1), DataWeight{}.minimum,
+          static_cast<float>(parameters.map_noise), device);
+  ViewStack<float>& maps = estimate.field.disparity;
+  fill_islands(parameters.islands, progress.part(1, 1), maps.view(maps.first()));
+  return estimate;
+}
+
+Schema<StereoGlobalParameters> stereo_global_schema(MatchedViews views) {
+  using P = StereoGlobalParameters;
+  return Schema<P>()
+      .part(&P::labeling, global_labeling_schema())
+      .part(&P::matching, stereo_cost_schema(views))
+      .part(&P::islands, island_schema())
+      .begin_with(kProfileKey)
+      .search("smoothness", {0.3, 0.6, 1.2, 2.4, 5, 10})
+      .search("edge_strength", {0, 25})
+      .search("epsilon", {0, 0.02, 0.05, kUncapped})
+      .preset(kProfileKey, kPaperProfile, plain_labeling())
+      .preset(kProfileKey, kPaperProfile, plain_islands())
+      .preset(kProfileKey, kPaperProfile, {{"smoothness", kPaperSmoothness}})
+      .preset_search(kProfileKey, kPaperProfile, "smoothness",
+                     {0.1, 0.2, 0.3, 0.4, 0.6, 0.8, 1.2, 1.6, 2.4});
+}
 
 Estimate estimate_stereo_global(const LightField& lf, MatchedViews views,
                                 const StereoGlobalParameters& parameters, const Progress& progress,

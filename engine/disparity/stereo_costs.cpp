@@ -153,6 +153,55 @@ std::string cap_note(const StereoCosts& costs) {
   return fmt::format(finding_text("cap"), costs.matching.cap);
 }
 
+// Rows of costs between which samples are dropped: multiples of a band.
+int rows_at_once(const LightField& lf, const StereoCosts& costs, int band_rows) {
+  const double most = static_cast<double>(memory_budget()) / 4;
+  int rows = lf.height();
+  while (rows > band_rows && looked_at_bytes(lf, costs, rows) > most) rows /= 2;
+  return std::max(rows / band_rows, 1) * band_rows;
+}
+
+void fill_volume(const LightField& lf, const StereoCosts& costs, int first_row, int end_row,
+                 VolumeView<float> volume, const Progress& progress) {
+  const int rows = stereo_band_rows(lf.height());
+  parallel_for_workers((end_row - first_row + rows - 1) / rows, progress, [&] {
+    return [&, source = StereoCostRows(lf, costs)](int i) mutable {
+      const int y = first_row + i * rows;
+      const auto band = source.compute(y, std::min(rows, end_row - y), progress);
+      std::copy_n(band.data, band.size(), volume.row(y, 0));
+    };
+  });
+}
+
+std::vector<cuda::MatchShift> device_shifts(const std::vector<AxisShift>& shifts) {
+  std::vector<cuda::MatchShift> result;
+  result.reserve(shifts.size());
+  for (const AxisShift& shift : shifts) {
+    cuda::MatchShift& each = result.emplace_back();
+    std::ranges::copy(shift.weights, each.weights);
+    each.origin = shift.origin;
+    each.taps = shift.taps;
+    each.first = shift.first;
+    each.last = shift.last;
+    each.nearest = shift.nearest;
+    each.noise_left = shift.noise_left();
+  }
+  return result;
+}
+
+// In the order in which the CPU adds them.
+std::vector<cuda::MatchedView> matched_views(GridShape grid, ViewIndex reference,
+                                             const MatchingCost& cost) {
+  std::vector<cuda::MatchedView> views;
+  for (int i = 0; i < grid.count(); ++i) {
+    const ViewIndex view = grid.view_at(i);
+    const bool on_cross = view.v == reference.v || view.u == reference.u;
+    if (view == reference || (cost.views == MatchedViews::CrossHair && !on_cross)) continue;
+    views.push_back({view, cost.places ? i : view.v, cost.places ? i : view.u});
+  }
+  return views;
+}
+
 }  // namespace
 
 Names<Compared> names_of(Compared) {
@@ -290,30 +339,6 @@ double looked_at_bytes(const LightField& lf, const StereoCosts& costs, int rows)
   return views * view_row * std::min<double>(rows + 2 * reach, lf.height());
 }
 
-namespace {
-
-// Rows of costs between which samples are dropped: multiples of a band.
-int rows_at_once(const LightField& lf, const StereoCosts& costs, int band_rows) {
-  const double most = static_cast<double>(memory_budget()) / 4;
-  int rows = lf.height();
-  while (rows > band_rows && looked_at_bytes(lf, costs, rows) > most) rows /= 2;
-  return std::max(rows / band_rows, 1) * band_rows;
-}
-
-void fill_volume(const LightField& lf, const StereoCosts& costs, int first_row, int end_row,
-                 VolumeView<float> volume, const Progress& progress) {
-  const int rows = stereo_band_rows(lf.height());
-  parallel_for_workers((end_row - first_row + rows - 1) / rows, progress, [&] {
-    return [&, source = StereoCostRows(lf, costs)](int i) mutable {
-      const int y = first_row + i * rows;
-      const auto band = source.compute(y, std::min(rows, end_row - y), progress);
-      std::copy_n(band.data, band.size(), volume.row(y, 0));
-    };
-  });
-}
-
-}  // namespace
-
 Volume<float> stereo_volume(const LightField& lf, const StereoCosts& costs,
                             const Progress& progress) {
   const int height = lf.height();
@@ -334,39 +359,6 @@ std::vector<std::string> cost_notes(const StereoCosts& costs) {
   notes.insert(notes.end(), costs.notes.begin(), costs.notes.end());
   return notes;
 }
-
-namespace {
-
-std::vector<cuda::MatchShift> device_shifts(const std::vector<AxisShift>& shifts) {
-  std::vector<cuda::MatchShift> result;
-  result.reserve(shifts.size());
-  for (const AxisShift& shift : shifts) {
-    cuda::MatchShift& each = result.emplace_back();
-    std::ranges::copy(shift.weights, each.weights);
-    each.origin = shift.origin;
-    each.taps = shift.taps;
-    each.first = shift.first;
-    each.last = shift.last;
-    each.nearest = shift.nearest;
-    each.noise_left = shift.noise_left();
-  }
-  return result;
-}
-
-// In the order in which the CPU adds them.
-std::vector<cuda::MatchedView> matched_views(GridShape grid, ViewIndex reference,
-                                             const MatchingCost& cost) {
-  std::vector<cuda::MatchedView> views;
-  for (int i = 0; i < grid.count(); ++i) {
-    const ViewIndex view = grid.view_at(i);
-    const bool on_cross = view.v == reference.v || view.u == reference.u;
-    if (view == reference || (cost.views == MatchedViews::CrossHair && !on_cross)) continue;
-    views.push_back({view, cost.places ? i : view.v, cost.places ? i : view.u});
-  }
-  return views;
-}
-
-}  // namespace
 
 cuda::StereoMatching device_matching(const LightField& lf, ViewIndex reference,
                                      const MatchingCost& cost, const std::vector<float>& labels) {

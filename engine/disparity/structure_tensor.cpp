@@ -119,40 +119,6 @@ int filter_reach(const std::vector<RowTaps>& filter) {
   return reach;
 }
 
-}  // namespace
-
-// Cut at 2σ, where the Gaussian has fallen to 13 %.
-int gaussian_radius(double sigma) {
-  return static_cast<int>(std::ceil(2 * sigma));
-}
-
-TensorFilterSet make_tensor_filters(int rows, int channels, const TensorScales& scales) {
-  const int inner = gaussian_radius(scales.inner);
-  const int views = gaussian_radius(scales.views);
-  const Matrix before =
-      smoothing_matrix(rows, inner, [&](int i) { return gaussian(scales.inner, i); });
-  const Matrix scharr = smoothing_matrix(rows, 1, [](int i) { return i == 0 ? 10.0 : 3.0; });
-  const Matrix after =
-      smoothing_matrix(rows, views, [&](int i) { return gaussian(scales.views, i); });
-  TensorFilterSet set;
-  set.row_smooth = banded(product(scharr, before), inner + 1);
-  set.row_derivative = banded(product(derivative_matrix(rows), before), inner + 1);
-  set.row_integrate = banded(after, views);
-  set.view_reach = filter_reach(set.row_smooth) + filter_reach(set.row_integrate);
-  set.filters.smooth = gaussian_taps(scales.inner);
-  set.filters.integrate = gaussian_taps(scales.outer);
-  set.filters.integrate_half = half_sample(set.filters.integrate);
-  set.filters.row_smooth = set.row_smooth.data();
-  set.filters.row_derivative = set.row_derivative.data();
-  set.filters.row_integrate = set.row_integrate.data();
-  set.filters.contrast_energy = contrast_energy(scales.contrast, channels);
-  set.filters.noise_energy = sample_energy(scales.noise, channels);
-  set.across = gaussian_taps(scales.across);
-  return set;
-}
-
-namespace {
-
 // Lanes that a kernel may read or write beyond what it is asked for.
 constexpr int kTensorSlack = 128;
 // Of the widest instruction set: rows begin at whole vectors, where strides allow it.
@@ -190,7 +156,63 @@ int reach_along(const TensorFilterSet& set, const TensorSearch& search) {
   return reach + set.filters.smooth.radius + 4;
 }
 
+std::vector<cuda::ViewFilter> view_filters(const std::vector<RowTaps>& rows) {
+  std::vector<cuda::ViewFilter> filters(rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    filters[i].first = rows[i].first;
+    filters[i].count = rows[i].count;
+    std::copy_n(rows[i].values, rows[i].count, filters[i].taps);
+  }
+  return filters;
+}
+
+cuda::ViewFilters view_filters(const TensorFilterSet& set) {
+  return {view_filters(set.row_smooth), view_filters(set.row_derivative),
+          view_filters(set.row_integrate), set.view_reach};
+}
+
+std::vector<float> lane_filter(const Taps& taps, int more = 0) {
+  return {taps.values, taps.values + 2 * taps.radius + 1 + more};
+}
+
+void set_shears(const std::vector<int>& shears, cuda::TensorSettings& settings) {
+  settings.first_shear = shears.front();
+  settings.shear_count = static_cast<int>(shears.size());
+  settings.shear_step = shears.size() > 1 ? shears[1] - shears[0] : 0;
+  assert(shears.back() == shears.front() + (settings.shear_count - 1) * settings.shear_step);
+}
+
 }  // namespace
+
+// Cut at 2σ, where the Gaussian has fallen to 13 %.
+int gaussian_radius(double sigma) {
+  return static_cast<int>(std::ceil(2 * sigma));
+}
+
+TensorFilterSet make_tensor_filters(int rows, int channels, const TensorScales& scales) {
+  const int inner = gaussian_radius(scales.inner);
+  const int views = gaussian_radius(scales.views);
+  const Matrix before =
+      smoothing_matrix(rows, inner, [&](int i) { return gaussian(scales.inner, i); });
+  const Matrix scharr = smoothing_matrix(rows, 1, [](int i) { return i == 0 ? 10.0 : 3.0; });
+  const Matrix after =
+      smoothing_matrix(rows, views, [&](int i) { return gaussian(scales.views, i); });
+  TensorFilterSet set;
+  set.row_smooth = banded(product(scharr, before), inner + 1);
+  set.row_derivative = banded(product(derivative_matrix(rows), before), inner + 1);
+  set.row_integrate = banded(after, views);
+  set.view_reach = filter_reach(set.row_smooth) + filter_reach(set.row_integrate);
+  set.filters.smooth = gaussian_taps(scales.inner);
+  set.filters.integrate = gaussian_taps(scales.outer);
+  set.filters.integrate_half = half_sample(set.filters.integrate);
+  set.filters.row_smooth = set.row_smooth.data();
+  set.filters.row_derivative = set.row_derivative.data();
+  set.filters.row_integrate = set.row_integrate.data();
+  set.filters.contrast_energy = contrast_energy(scales.contrast, channels);
+  set.filters.noise_energy = sample_energy(scales.noise, channels);
+  set.across = gaussian_taps(scales.across);
+  return set;
+}
 
 TensorSearch cover_range(Interval range, int step_half_px) {
   const double step = 0.5 * step_half_px;
@@ -481,36 +503,6 @@ void merge_orientations(const float* disparity, const float* coherence, int coun
   EPISCOPE_CHOOSE_KERNEL(best_isa(), kOrientationKernel)
       .merge(disparity, coherence, count, power, to_disparity, to_coherence);
 }
-
-namespace {
-
-std::vector<cuda::ViewFilter> view_filters(const std::vector<RowTaps>& rows) {
-  std::vector<cuda::ViewFilter> filters(rows.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    filters[i].first = rows[i].first;
-    filters[i].count = rows[i].count;
-    std::copy_n(rows[i].values, rows[i].count, filters[i].taps);
-  }
-  return filters;
-}
-
-cuda::ViewFilters view_filters(const TensorFilterSet& set) {
-  return {view_filters(set.row_smooth), view_filters(set.row_derivative),
-          view_filters(set.row_integrate), set.view_reach};
-}
-
-std::vector<float> lane_filter(const Taps& taps, int more = 0) {
-  return {taps.values, taps.values + 2 * taps.radius + 1 + more};
-}
-
-void set_shears(const std::vector<int>& shears, cuda::TensorSettings& settings) {
-  settings.first_shear = shears.front();
-  settings.shear_count = static_cast<int>(shears.size());
-  settings.shear_step = shears.size() > 1 ? shears[1] - shears[0] : 0;
-  assert(shears.back() == shears.front() + (settings.shear_count - 1) * settings.shear_step);
-}
-
-}  // namespace
 
 cuda::TensorSettings device_tensor_settings(const LightField& lf, const TensorScales& scales,
                                             const TensorSearch& search) {

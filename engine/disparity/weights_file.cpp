@@ -17,7 +17,6 @@
 #include <sstream>
 
 namespace episcope {
-
 namespace {
 
 namespace fs = std::filesystem;
@@ -262,6 +261,22 @@ std::string read_record(const fs::path& path, const Entry& entry, const Array& a
   return std::string(array.samples);
 }
 
+// The file that holds this code, mapped by the system; empty if that cannot be told.
+fs::path own_file() {
+  static const char here = 0;
+  const auto address = reinterpret_cast<std::uintptr_t>(&here);
+  std::ifstream maps("/proc/self/maps");
+  for (std::string line; std::getline(maps, line);) {
+    std::uintptr_t begin = 0, end = 0;
+    const auto [dash, failure] = std::from_chars(line.data(), line.data() + line.size(), begin, 16);
+    if (failure != std::errc() || *dash != '-') continue;
+    std::from_chars(dash + 1, line.data() + line.size(), end, 16);
+    const std::size_t name = line.find('/');
+    if (begin <= address && address < end && name != std::string::npos) return line.substr(name);
+  }
+  return {};
+}
+
 }  // namespace
 
 NamedArrays read_named_arrays(const fs::path& path) {
@@ -295,26 +310,6 @@ NamedArrays read_named_arrays(const fs::path& path) {
   read.hash = hash.value();
   return read;
 }
-
-namespace {
-
-// The file that holds this code, mapped by the system; empty if that cannot be told.
-fs::path own_file() {
-  static const char here = 0;
-  const auto address = reinterpret_cast<std::uintptr_t>(&here);
-  std::ifstream maps("/proc/self/maps");
-  for (std::string line; std::getline(maps, line);) {
-    std::uintptr_t begin = 0, end = 0;
-    const auto [dash, failure] = std::from_chars(line.data(), line.data() + line.size(), begin, 16);
-    if (failure != std::errc() || *dash != '-') continue;
-    std::from_chars(dash + 1, line.data() + line.size(), end, 16);
-    const std::size_t name = line.find('/');
-    if (begin <= address && address < end && name != std::string::npos) return line.substr(name);
-  }
-  return {};
-}
-
-}  // namespace
 
 fs::path installed_weights(std::string_view name) {
   std::vector<fs::path> data_folders;

@@ -25,6 +25,62 @@ std::optional<double> mean_over(const std::vector<std::int32_t>& labels, const V
   return sum / static_cast<double>(labels.size());
 }
 
+// Each of the two at most once.
+class OneToOne {
+ public:
+  void add(std::int32_t given, std::int32_t truth) {
+    if (true_of_.contains(given) || !taken_.insert(truth).second) return;
+    true_of_[given] = truth;
+  }
+  [[nodiscard]] const std::map<std::int32_t, std::int32_t>& pairs() const { return true_of_; }
+
+ private:
+  std::map<std::int32_t, std::int32_t> true_of_;
+  std::set<std::int32_t> taken_;
+};
+
+// Row by row, then column by column: `combine` over the window around each pixel.
+template <class T, class Combine>
+Image<T> over_windows(ImageView<const T> image, int radius, const Combine& combine) {
+  const auto along = [&](ImageView<const T> from, bool is_row) {
+    Image<T> out(from.height, from.width);
+    for (int y = 0; y < from.height; ++y) {
+      for (int x = 0; x < from.width; ++x) {
+        T value = from.at(y, x);
+        const int here = is_row ? x : y;
+        const int last = std::min(here + radius, (is_row ? from.width : from.height) - 1);
+        for (int i = std::max(here - radius, 0); i <= last; ++i) {
+          value = combine(value, is_row ? from.at(y, i) : from.at(i, x));
+        }
+        out.at(y, x) = value;
+      }
+    }
+    return out;
+  };
+  const Image<T> rows = along(image, true);
+  return along(rows.view(), false);
+}
+
+// 1 where a pixel of another label lies in the square of 2·radius + 1 px around the pixel,
+// `[y][x]`.
+Image<std::uint8_t> near_boundaries(ImageView<const std::int32_t> labels, int radius) {
+  const auto least = over_windows(labels, radius, [](auto a, auto b) { return std::min(a, b); });
+  const auto most = over_windows(labels, radius, [](auto a, auto b) { return std::max(a, b); });
+  Image<std::uint8_t> near(labels.height, labels.width);
+  std::transform(least.begin(), least.end(), most.begin(), near.begin(),
+                 [](auto a, auto b) { return static_cast<std::uint8_t>(a != b); });
+  return near;
+}
+
+// 1 where the pixel lies in no square of kThinWidth_px + 1 px of its label alone, `[y][x]`: what a
+// morphological opening of the label removes. Squares end at the border of the image.
+Image<std::uint8_t> thin_parts(ImageView<const std::int32_t> labels) {
+  // A square without a boundary covers all of its pixels.
+  const Image<std::uint8_t> mixed = near_boundaries(labels, kThinWidth_px / 2);
+  const ImageView<const std::uint8_t> view = mixed.view();
+  return over_windows(view, kThinWidth_px / 2, [](auto a, auto b) { return std::min(a, b); });
+}
+
 }  // namespace
 
 std::int64_t LabelAccuracy::judged() const {
@@ -98,24 +154,6 @@ LabelAccuracy LabelAccuracy::matched(const LabelMatch& match) const {
   return renumbered;
 }
 
-namespace {
-
-// Each of the two at most once.
-class OneToOne {
- public:
-  void add(std::int32_t given, std::int32_t truth) {
-    if (true_of_.contains(given) || !taken_.insert(truth).second) return;
-    true_of_[given] = truth;
-  }
-  [[nodiscard]] const std::map<std::int32_t, std::int32_t>& pairs() const { return true_of_; }
-
- private:
-  std::map<std::int32_t, std::int32_t> true_of_;
-  std::set<std::int32_t> taken_;
-};
-
-}  // namespace
-
 LabelMatch match_labels(const LabelAccuracy& accuracy, const std::vector<LabelInfo>& given,
                         const std::vector<LabelInfo>& truth) {
   OneToOne matches;
@@ -167,52 +205,6 @@ LabelAccuracy judge_labels(const ViewStack<std::int32_t>& labels,
   }
   return accuracy;
 }
-
-namespace {
-
-// Row by row, then column by column: `combine` over the window around each pixel.
-template <class T, class Combine>
-Image<T> over_windows(ImageView<const T> image, int radius, const Combine& combine) {
-  const auto along = [&](ImageView<const T> from, bool is_row) {
-    Image<T> out(from.height, from.width);
-    for (int y = 0; y < from.height; ++y) {
-      for (int x = 0; x < from.width; ++x) {
-        T value = from.at(y, x);
-        const int here = is_row ? x : y;
-        const int last = std::min(here + radius, (is_row ? from.width : from.height) - 1);
-        for (int i = std::max(here - radius, 0); i <= last; ++i) {
-          value = combine(value, is_row ? from.at(y, i) : from.at(i, x));
-        }
-        out.at(y, x) = value;
-      }
-    }
-    return out;
-  };
-  const Image<T> rows = along(image, true);
-  return along(rows.view(), false);
-}
-
-// 1 where a pixel of another label lies in the square of 2·radius + 1 px around the pixel,
-// `[y][x]`.
-Image<std::uint8_t> near_boundaries(ImageView<const std::int32_t> labels, int radius) {
-  const auto least = over_windows(labels, radius, [](auto a, auto b) { return std::min(a, b); });
-  const auto most = over_windows(labels, radius, [](auto a, auto b) { return std::max(a, b); });
-  Image<std::uint8_t> near(labels.height, labels.width);
-  std::transform(least.begin(), least.end(), most.begin(), near.begin(),
-                 [](auto a, auto b) { return static_cast<std::uint8_t>(a != b); });
-  return near;
-}
-
-// 1 where the pixel lies in no square of kThinWidth_px + 1 px of its label alone, `[y][x]`: what a
-// morphological opening of the label removes. Squares end at the border of the image.
-Image<std::uint8_t> thin_parts(ImageView<const std::int32_t> labels) {
-  // A square without a boundary covers all of its pixels.
-  const Image<std::uint8_t> mixed = near_boundaries(labels, kThinWidth_px / 2);
-  const ImageView<const std::uint8_t> view = mixed.view();
-  return over_windows(view, kThinWidth_px / 2, [](auto a, auto b) { return std::min(a, b); });
-}
-
-}  // namespace
 
 std::optional<double> LabelQuality::thin_overlap() const {
   double sum = 0;

@@ -138,16 +138,6 @@ class RegionMetrics {
   Image<float> angle_;
 };
 
-}  // namespace
-
-void append_region_metrics(Evaluation& evaluation, const RegionInput& input) {
-  RegionMetrics metrics(evaluation, input);
-  metrics.append();
-  if (scene_of(input) == StratifiedScene::Pyramids) metrics.append_pyramids();
-}
-
-namespace {
-
 using Vector = std::array<double, 3>;
 
 /// Position of a pixel's surface point per unit of depth.
@@ -197,28 +187,6 @@ Vector normal(const Image<double>& depth, const PointGrid& grid, int y, int x) {
   return cross;
 }
 
-}  // namespace
-
-Image<float> angle_between_normals(const Image<double>& a, const Image<double>& b,
-                                   const CameraGrid& camera) {
-  const PointGrid grid(camera, a.height(), a.width());
-  const Image<double> depth_a = depth_map(a, camera);
-  const Image<double> depth_b = depth_map(b, camera);
-  Image<float> angle(a.height(), a.width());
-  for (int y = 0; y < a.height(); ++y) {
-    for (int x = 0; x < a.width(); ++x) {
-      const Vector na = normal(depth_a, grid, y, x);
-      const Vector nb = normal(depth_b, grid, y, x);
-      const double cosine = na[0] * nb[0] + na[1] * nb[1] + na[2] * nb[2];
-      const double bounded = std::clamp(cosine, -1.0, 1.0);
-      angle.at(y, x) = static_cast<float>(std::acos(bounded) * 180 / std::numbers::pi);
-    }
-  }
-  return angle;
-}
-
-namespace {
-
 int reflected(int i, int size) {
   if (i < 0) return std::min(-i - 1, size - 1);
   return i < size ? i : std::max(2 * size - 1 - i, 0);
@@ -244,24 +212,6 @@ Image<double> scharr(const Image<double>& map) {
   }
   return result;
 }
-
-}  // namespace
-
-Image<float> hessian_norm(const Image<double>& map) {
-  const Image<double> dx = scharr<true>(map);
-  const Image<double> dy = scharr<false>(map);
-  const Image<double> terms[] = {scharr<true>(dx), scharr<false>(dx), scharr<true>(dy),
-                                 scharr<false>(dy)};
-  Image<float> norm(map.height(), map.width());
-  for (std::size_t i = 0; i < norm.size(); ++i) {
-    double sum = 0;
-    for (const auto& term : terms) sum += term.data()[i] * term.data()[i];
-    norm.data()[i] = static_cast<float>(std::sqrt(sum));
-  }
-  return norm;
-}
-
-namespace {
 
 void append_all(Metrics& metrics, const Metrics& more, const char* suffix = "") {
   for (const auto& [key, value] : more) metrics.emplace_back(key + suffix, value);
@@ -318,31 +268,6 @@ void append_low_res(const RegionInput& input, StratifiedScene scene, BenchmarkMe
   append_all(metrics.masked, masked_metrics(errors, kBenchmarkBorder, scene, region, metrics.notes),
              kLowResSuffix);
 }
-
-}  // namespace
-
-StratifiedScene scene_of(const RegionInput& input) {
-  if (input.options.stratified != StratifiedScene::None) return input.options.stratified;
-  if (has_any(input, {"foreground_fattening", "foreground_thinning"})) {
-    return StratifiedScene::Backgammon;
-  }
-  if (has_any(input, {"dots_by_size"})) return StratifiedScene::Dots;
-  if (has_any(input, {"pyramids", "sphere_in", "sphere_out"})) return StratifiedScene::Pyramids;
-  if (has_any(input, {"low_texture", "high_contrast", "low_contrast"})) {
-    return StratifiedScene::Stripes;
-  }
-  return StratifiedScene::None;
-}
-
-BenchmarkMetrics benchmark_metrics(const RegionInput& input) {
-  const StratifiedScene scene = scene_of(input);
-  BenchmarkMetrics metrics;
-  append_high_res(input, scene, metrics);
-  append_low_res(input, scene, metrics);
-  return metrics;
-}
-
-namespace {
 
 using Mask = Image<std::uint8_t>;
 
@@ -485,6 +410,65 @@ class MaskedMetrics {
 };
 
 }  // namespace
+
+void append_region_metrics(Evaluation& evaluation, const RegionInput& input) {
+  RegionMetrics metrics(evaluation, input);
+  metrics.append();
+  if (scene_of(input) == StratifiedScene::Pyramids) metrics.append_pyramids();
+}
+
+Image<float> angle_between_normals(const Image<double>& a, const Image<double>& b,
+                                   const CameraGrid& camera) {
+  const PointGrid grid(camera, a.height(), a.width());
+  const Image<double> depth_a = depth_map(a, camera);
+  const Image<double> depth_b = depth_map(b, camera);
+  Image<float> angle(a.height(), a.width());
+  for (int y = 0; y < a.height(); ++y) {
+    for (int x = 0; x < a.width(); ++x) {
+      const Vector na = normal(depth_a, grid, y, x);
+      const Vector nb = normal(depth_b, grid, y, x);
+      const double cosine = na[0] * nb[0] + na[1] * nb[1] + na[2] * nb[2];
+      const double bounded = std::clamp(cosine, -1.0, 1.0);
+      angle.at(y, x) = static_cast<float>(std::acos(bounded) * 180 / std::numbers::pi);
+    }
+  }
+  return angle;
+}
+
+Image<float> hessian_norm(const Image<double>& map) {
+  const Image<double> dx = scharr<true>(map);
+  const Image<double> dy = scharr<false>(map);
+  const Image<double> terms[] = {scharr<true>(dx), scharr<false>(dx), scharr<true>(dy),
+                                 scharr<false>(dy)};
+  Image<float> norm(map.height(), map.width());
+  for (std::size_t i = 0; i < norm.size(); ++i) {
+    double sum = 0;
+    for (const auto& term : terms) sum += term.data()[i] * term.data()[i];
+    norm.data()[i] = static_cast<float>(std::sqrt(sum));
+  }
+  return norm;
+}
+
+StratifiedScene scene_of(const RegionInput& input) {
+  if (input.options.stratified != StratifiedScene::None) return input.options.stratified;
+  if (has_any(input, {"foreground_fattening", "foreground_thinning"})) {
+    return StratifiedScene::Backgammon;
+  }
+  if (has_any(input, {"dots_by_size"})) return StratifiedScene::Dots;
+  if (has_any(input, {"pyramids", "sphere_in", "sphere_out"})) return StratifiedScene::Pyramids;
+  if (has_any(input, {"low_texture", "high_contrast", "low_contrast"})) {
+    return StratifiedScene::Stripes;
+  }
+  return StratifiedScene::None;
+}
+
+BenchmarkMetrics benchmark_metrics(const RegionInput& input) {
+  const StratifiedScene scene = scene_of(input);
+  BenchmarkMetrics metrics;
+  append_high_res(input, scene, metrics);
+  append_low_res(input, scene, metrics);
+  return metrics;
+}
 
 Metrics masked_metrics(const ResolvedErrors& errors, int border, StratifiedScene scene,
                        const RegionLookup& region, std::vector<std::string>& problems) {

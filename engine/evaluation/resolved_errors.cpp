@@ -26,6 +26,67 @@ std::vector<int> nearest_samples(int count, int scale) {
   return nearest;
 }
 
+/// Calls `visit(pixel)` for the judged pixels of a part.
+template <class Visit>
+void visit_part(const Evaluation& evaluation, const Image<std::uint8_t>* part, Visit visit) {
+  for (std::size_t i = 0; i < evaluation.judged.size(); ++i) {
+    if (evaluation.judged.data()[i] != 0 && (!part || part->data()[i] != 0)) visit(i);
+  }
+}
+
+struct Limit {
+  const char* key;
+  float error_px;
+};
+constexpr Limit kLimits[] = {
+    {"badpix_0010", 0.01F}, {"badpix_0030", 0.03F}, {"badpix_0070", 0.07F}};
+
+struct Sums {
+  std::size_t pixels = 0;
+  std::size_t missing = 0;
+  double squares = 0;
+  std::size_t bad[std::size(kLimits)] = {};
+};
+
+Sums sums_of(const Evaluation& evaluation, const Image<std::uint8_t>* part) {
+  Sums sums;
+  visit_part(evaluation, part, [&](std::size_t i) {
+    const float error = evaluation.signed_error.data()[i];
+    const bool is_missing = evaluation.missing.data()[i] != 0;
+    ++sums.pixels;
+    sums.missing += is_missing ? 1 : 0;
+    sums.squares += double{error} * error;
+    for (std::size_t limit = 0; limit < std::size(kLimits); ++limit) {
+      sums.bad[limit] += is_missing || std::abs(error) > kLimits[limit].error_px ? 1 : 0;
+    }
+  });
+  return sums;
+}
+
+// Missing ones are last in the order.
+double q_25_100(const Evaluation& evaluation, const Image<std::uint8_t>* part, const Sums& sums) {
+  const std::size_t rank = sums.pixels * 25 / 100;
+  const std::size_t present = sums.pixels - sums.missing;
+  const bool is_missing = rank >= present;
+  const auto feed = [&](const auto& sink) {
+    visit_part(evaluation, part, [&](std::size_t i) {
+      if ((evaluation.missing.data()[i] != 0) != is_missing) return;
+      sink(std::abs(evaluation.signed_error.data()[i]) * 100);
+    });
+  };
+  return double{nth_value(feed, is_missing ? rank - present : rank)};
+}
+
+Interval judged_disparities(const Evaluation& evaluation, const Image<float>& truth,
+                            const Image<std::uint8_t>* part) {
+  Interval range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  visit_part(evaluation, part, [&](std::size_t i) {
+    range.min = std::min(range.min, double{truth.data()[i]});
+    range.max = std::max(range.max, double{truth.data()[i]});
+  });
+  return range;
+}
+
 }  // namespace
 
 Image<float> marked(const DisparityView& map) {
@@ -127,71 +188,6 @@ Metrics ResolvedErrors::general(int border) const {
   append("q_25_100", q_25_100(border));
   return metrics;
 }
-
-namespace {
-
-/// Calls `visit(pixel)` for the judged pixels of a part.
-template <class Visit>
-void visit_part(const Evaluation& evaluation, const Image<std::uint8_t>* part, Visit visit) {
-  for (std::size_t i = 0; i < evaluation.judged.size(); ++i) {
-    if (evaluation.judged.data()[i] != 0 && (!part || part->data()[i] != 0)) visit(i);
-  }
-}
-
-struct Limit {
-  const char* key;
-  float error_px;
-};
-constexpr Limit kLimits[] = {
-    {"badpix_0010", 0.01F}, {"badpix_0030", 0.03F}, {"badpix_0070", 0.07F}};
-
-struct Sums {
-  std::size_t pixels = 0;
-  std::size_t missing = 0;
-  double squares = 0;
-  std::size_t bad[std::size(kLimits)] = {};
-};
-
-Sums sums_of(const Evaluation& evaluation, const Image<std::uint8_t>* part) {
-  Sums sums;
-  visit_part(evaluation, part, [&](std::size_t i) {
-    const float error = evaluation.signed_error.data()[i];
-    const bool is_missing = evaluation.missing.data()[i] != 0;
-    ++sums.pixels;
-    sums.missing += is_missing ? 1 : 0;
-    sums.squares += double{error} * error;
-    for (std::size_t limit = 0; limit < std::size(kLimits); ++limit) {
-      sums.bad[limit] += is_missing || std::abs(error) > kLimits[limit].error_px ? 1 : 0;
-    }
-  });
-  return sums;
-}
-
-// Missing ones are last in the order.
-double q_25_100(const Evaluation& evaluation, const Image<std::uint8_t>* part, const Sums& sums) {
-  const std::size_t rank = sums.pixels * 25 / 100;
-  const std::size_t present = sums.pixels - sums.missing;
-  const bool is_missing = rank >= present;
-  const auto feed = [&](const auto& sink) {
-    visit_part(evaluation, part, [&](std::size_t i) {
-      if ((evaluation.missing.data()[i] != 0) != is_missing) return;
-      sink(std::abs(evaluation.signed_error.data()[i]) * 100);
-    });
-  };
-  return double{nth_value(feed, is_missing ? rank - present : rank)};
-}
-
-Interval judged_disparities(const Evaluation& evaluation, const Image<float>& truth,
-                            const Image<std::uint8_t>* part) {
-  Interval range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-  visit_part(evaluation, part, [&](std::size_t i) {
-    range.min = std::min(range.min, double{truth.data()[i]});
-    range.max = std::max(range.max, double{truth.data()[i]});
-  });
-  return range;
-}
-
-}  // namespace
 
 PartScore score_part(const Evaluation& evaluation, const Image<std::uint8_t>* part,
                      Protocol protocol) {

@@ -128,20 +128,6 @@ void take_news(const ViewNews& news, VolumeView<std::uint8_t> into,
   }
 }
 
-}  // namespace
-
-void carry_news(const ViewNews& news, const DisparityField& disparity, const RayColors& colors,
-                ViewIndex view, LabelProbabilities& into, ChangedRays& changed) {
-  const VolumeView<std::uint8_t> of_view = into.view(view).view();
-  const ImageView<std::uint8_t> marks = changed.view(view);
-  if (view == news.view) return take_news(news, of_view, marks);
-  if (!disparity.contains(view)) return;
-  NewsRow row(news, disparity, colors);
-  for (int y = 0; y < of_view.height; ++y) row.carry(view, y, of_view, marks.row(y));
-}
-
-namespace {
-
 // The marked pixels of a view, and those around them.
 Image<std::uint8_t> around(ImageView<const std::uint8_t> marks, int reach_px) {
   const cv::Size window(2 * reach_px + 1, 2 * reach_px + 1);
@@ -404,6 +390,16 @@ ViewStack<std::int32_t> room_for(const ViewStack<std::int32_t>& labels) {
 }
 
 }  // namespace
+
+void carry_news(const ViewNews& news, const DisparityField& disparity, const RayColors& colors,
+                ViewIndex view, LabelProbabilities& into, ChangedRays& changed) {
+  const VolumeView<std::uint8_t> of_view = into.view(view).view();
+  const ImageView<std::uint8_t> marks = changed.view(view);
+  if (view == news.view) return take_news(news, of_view, marks);
+  if (!disparity.contains(view)) return;
+  NewsRow row(news, disparity, colors);
+  for (int y = 0; y < of_view.height; ++y) row.carry(view, y, of_view, marks.row(y));
+}
 
 RayLabeling correct_rays(const RayLabelingInput& input, const RayLabelingParameters& parameters,
                          const RayCorrection& correction, const Progress& progress) {

@@ -69,12 +69,12 @@ struct RayCorrection {
   std::function<void(const Progress&)> complete{};
 };
 
-/// Labels of all views, ids, after the probabilities of some rays have changed, as `smooth_rays`
-/// would give them: in the first view, rays within kReach_px of a changed one are solved again. In
-/// each other view, rays that near take the new labels of the first view where those have changed
-/// nearby, and are solved again beside boundaries and where the first view does not see their
-/// points. All others keep their labels. Then rays vote again whose evidence has changed. Costs,
-/// gap and votes are those of `smooth_rays`. Energy and bound are of the parts that were solved,
+/// Labels of all views, ids, after the probabilities of some rays have changed, as
+/// Regularizer::Rayspace would give them: in the first view, rays within kReach_px of a changed one
+/// are solved again. In each other view, rays that near take the new labels of the first view where
+/// those have changed nearby, and are solved again beside boundaries and where the first view does
+/// not see their points. All others keep their labels. Then rays vote again whose evidence has
+/// changed; costs, gap and votes are the same. Energy and bound are of the parts that were solved,
 /// with what borders them held. Precondition: `input` has disparities and probabilities of all
 /// views. Throws Cancelled.
 [[nodiscard]] RayLabeling correct_rays(const RayLabelingInput& input,

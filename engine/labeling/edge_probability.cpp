@@ -111,6 +111,17 @@ void check_sizes(const LightField& lf, const DisparityField& disparity) {
   throw InvalidInput("edges need disparities of the size of the light field");
 }
 
+constexpr float kSureTrust = 0.43F;
+constexpr double kScale_px = 2;
+
+// What a tenth of the pixels exceed.
+float surest_tenth(ImageView<const float> confidence) {
+  std::vector<float> sorted(confidence.data, confidence.data + confidence.size());
+  const auto at = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() * 9 / 10);
+  std::ranges::nth_element(sorted, at);
+  return *at;
+}
+
 }  // namespace
 
 Image<float> edge_probability(const LightField& light_field, ViewIndex view,
@@ -139,21 +150,6 @@ ViewStack<float> edge_probabilities(const LightField& light_field, ViewRectangle
   });
   return edges;
 }
-
-namespace {
-
-constexpr float kSureTrust = 0.43F;
-constexpr double kScale_px = 2;
-
-// What a tenth of the pixels exceed.
-float surest_tenth(ImageView<const float> confidence) {
-  std::vector<float> sorted(confidence.data, confidence.data + confidence.size());
-  const auto at = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() * 9 / 10);
-  std::ranges::nth_element(sorted, at);
-  return *at;
-}
-
-}  // namespace
 
 Image<float> disparity_trust(ImageView<const float> confidence) {
   Image<float> trust(confidence.height, confidence.width);

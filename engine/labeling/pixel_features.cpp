@@ -168,6 +168,90 @@ void add_disparity(LayerWriter& layers, const cv::Mat& disparity) {
   layers.add(smoothed(wrapped(slopes.y), kFineScale));
 }
 
+constexpr int kDistances_px[] = {3, 6};
+constexpr float kUnknown = std::numeric_limits<float>::max();
+
+/// Replaces slopes by those between `from` and `to` that are less inclined.
+void take_less(const float* from, const float* to, float scale, int count, float* slope) {
+  for (int i = 0; i < count; ++i) {
+    const float other = scale * (to[i] - from[i]);
+    slope[i] = std::abs(other) < std::abs(slope[i]) ? other : slope[i];
+  }
+}
+
+void end_row(int width, float* slope) {
+  std::replace(slope, slope + width, kUnknown, 0.0F);
+}
+
+void slopes_along_row(const float* row, int width, float* slope) {
+  std::fill_n(slope, width, kUnknown);
+  for (const int distance : kDistances_px) {
+    const float scale = 1.0F / static_cast<float>(distance);
+    const int count = width - distance;
+    if (count <= 0) continue;
+    take_less(row, row + distance, scale, count, slope);
+    take_less(row, row + distance, scale, count, slope + distance);
+  }
+  end_row(width, slope);
+}
+
+void slopes_down(ImageView<const float> map, int y, float* slope) {
+  std::fill_n(slope, map.width, kUnknown);
+  for (const int distance : kDistances_px) {
+    const float scale = 1.0F / static_cast<float>(distance);
+    if (y + distance < map.height) {
+      take_less(map.row(y), map.row(y + distance), scale, map.width, slope);
+    }
+    if (y >= distance) take_less(map.row(y - distance), map.row(y), scale, map.width, slope);
+  }
+  end_row(map.width, slope);
+}
+
+// A plane with as many pixels around it as the filter looks at, equal to those at the border.
+class Padded {
+ public:
+  Padded(const Image<float>& plane, int margin)
+      : margin_(margin),
+        pitch_(plane.width() + 2 * margin + kVectorLanes),
+        values_(static_cast<std::size_t>(pitch_) * (plane.height() + 2 * margin) + kVectorLanes) {
+    for (int y = -margin; y < plane.height() + margin; ++y) {
+      const float* const from = plane.row(std::clamp(y, 0, plane.height() - 1));
+      float* const to = values_.data() + (y + margin) * pitch_;
+      std::fill_n(to, margin, from[0]);
+      std::copy_n(from, plane.width(), to + margin);
+      std::fill_n(to + margin + plane.width(), margin, from[plane.width() - 1]);
+    }
+  }
+  [[nodiscard]] const float* row(int y) const {
+    return values_.data() + (y + margin_) * pitch_ + margin_;
+  }
+  [[nodiscard]] long pitch() const { return pitch_; }
+
+ private:
+  int margin_;
+  long pitch_;
+  std::vector<float> values_;
+};
+
+struct SurfaceNeighbors {
+  std::vector<long> offsets;
+  std::vector<float> nearness;
+};
+
+SurfaceNeighbors neighbors_of(const SurfaceFilter& filter, long pitch) {
+  SurfaceNeighbors all;
+  const double share = std::numbers::log2e / (2 * filter.scale_px * filter.scale_px);
+  for (int y = -filter.radius_px; y <= filter.radius_px; ++y) {
+    for (int x = -filter.radius_px; x <= filter.radius_px; ++x) {
+      const int square = x * x + y * y;
+      if (square > filter.radius_px * filter.radius_px) continue;
+      all.offsets.push_back(y * pitch + x);
+      all.nearness.push_back(static_cast<float>(-square * share));
+    }
+  }
+  return all;
+}
+
 }  // namespace
 
 std::vector<std::string> pixel_feature_names(PixelFeatureSet set) {
@@ -248,49 +332,6 @@ Image<float> filled_disparity(const DisparityView& disparity) {
   return filled;
 }
 
-namespace {
-
-constexpr int kDistances_px[] = {3, 6};
-constexpr float kUnknown = std::numeric_limits<float>::max();
-
-/// Replaces slopes by those between `from` and `to` that are less inclined.
-void take_less(const float* from, const float* to, float scale, int count, float* slope) {
-  for (int i = 0; i < count; ++i) {
-    const float other = scale * (to[i] - from[i]);
-    slope[i] = std::abs(other) < std::abs(slope[i]) ? other : slope[i];
-  }
-}
-
-void end_row(int width, float* slope) {
-  std::replace(slope, slope + width, kUnknown, 0.0F);
-}
-
-void slopes_along_row(const float* row, int width, float* slope) {
-  std::fill_n(slope, width, kUnknown);
-  for (const int distance : kDistances_px) {
-    const float scale = 1.0F / static_cast<float>(distance);
-    const int count = width - distance;
-    if (count <= 0) continue;
-    take_less(row, row + distance, scale, count, slope);
-    take_less(row, row + distance, scale, count, slope + distance);
-  }
-  end_row(width, slope);
-}
-
-void slopes_down(ImageView<const float> map, int y, float* slope) {
-  std::fill_n(slope, map.width, kUnknown);
-  for (const int distance : kDistances_px) {
-    const float scale = 1.0F / static_cast<float>(distance);
-    if (y + distance < map.height) {
-      take_less(map.row(y), map.row(y + distance), scale, map.width, slope);
-    }
-    if (y >= distance) take_less(map.row(y - distance), map.row(y), scale, map.width, slope);
-  }
-  end_row(map.width, slope);
-}
-
-}  // namespace
-
 DisparitySlopes disparity_slopes(ImageView<const float> disparity) {
   DisparitySlopes slopes{Image<float>(disparity.height, disparity.width),
                          Image<float>(disparity.height, disparity.width)};
@@ -308,55 +349,6 @@ cv::Mat lab_colors(const cv::Mat& samples) {
   lab *= kUnit;
   return lab;
 }
-
-namespace {
-
-// A plane with as many pixels around it as the filter looks at, equal to those at the border.
-class Padded {
- public:
-  Padded(const Image<float>& plane, int margin)
-      : margin_(margin),
-        pitch_(plane.width() + 2 * margin + kVectorLanes),
-        values_(static_cast<std::size_t>(pitch_) * (plane.height() + 2 * margin) + kVectorLanes) {
-    for (int y = -margin; y < plane.height() + margin; ++y) {
-      const float* const from = plane.row(std::clamp(y, 0, plane.height() - 1));
-      float* const to = values_.data() + (y + margin) * pitch_;
-      std::fill_n(to, margin, from[0]);
-      std::copy_n(from, plane.width(), to + margin);
-      std::fill_n(to + margin + plane.width(), margin, from[plane.width() - 1]);
-    }
-  }
-  [[nodiscard]] const float* row(int y) const {
-    return values_.data() + (y + margin_) * pitch_ + margin_;
-  }
-  [[nodiscard]] long pitch() const { return pitch_; }
-
- private:
-  int margin_;
-  long pitch_;
-  std::vector<float> values_;
-};
-
-struct SurfaceNeighbors {
-  std::vector<long> offsets;
-  std::vector<float> nearness;
-};
-
-SurfaceNeighbors neighbors_of(const SurfaceFilter& filter, long pitch) {
-  SurfaceNeighbors all;
-  const double share = std::numbers::log2e / (2 * filter.scale_px * filter.scale_px);
-  for (int y = -filter.radius_px; y <= filter.radius_px; ++y) {
-    for (int x = -filter.radius_px; x <= filter.radius_px; ++x) {
-      const int square = x * x + y * y;
-      if (square > filter.radius_px * filter.radius_px) continue;
-      all.offsets.push_back(y * pitch + x);
-      all.nearness.push_back(static_cast<float>(-square * share));
-    }
-  }
-  return all;
-}
-
-}  // namespace
 
 ColorPlanes filter_surfaces(const ColorPlanes& colors, const SurfaceFilter& filter,
                             const Progress& progress) {

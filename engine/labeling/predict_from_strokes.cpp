@@ -13,7 +13,6 @@
 #include <optional>
 
 namespace episcope {
-
 namespace {
 
 constexpr int kSweeps = 3;
@@ -35,6 +34,102 @@ float step_length(Way way) {
 std::int32_t index_of(const std::vector<std::int32_t>& ids, std::int32_t label) {
   if (label <= 0) return 0;
   return static_cast<std::int32_t>(std::ranges::lower_bound(ids, label) - ids.begin()) + 1;
+}
+
+/// What is known about the pixels of a view besides their features.
+struct StrokeEvidence {
+  const StrokeDistances& distances;
+  double nearness = 0;
+  const LabelSurfaces* surfaces = nullptr;  ///< Null = no disparity to compare.
+  /// Painted on this view itself: labels there are certain. Empty = none.
+  ImageView<const std::int32_t> painted{};
+};
+
+/// Rows of probabilities `[x][label]` into bytes `[label][x]`.
+void store_row(const float* row, int pitch, VolumeView<std::uint8_t> map, int y) {
+  for (int l = 0; l < map.layers; ++l) {
+    std::uint8_t* out = map.row(y, l);
+    for (int x = 0; x < map.width; ++x) {
+      const float scaled = row[static_cast<std::ptrdiff_t>(x) * pitch + l] * 255.0F + 0.5F;
+      out[x] = static_cast<std::uint8_t>(std::min(scaled, 255.0F));
+    }
+  }
+}
+
+/// Certainty on the painted pixels of a row.
+void keep_strokes(const std::int32_t* strokes, int width, int pitch, float* row) {
+  for (int x = 0; x < width; ++x) {
+    if (strokes[x] == 0) continue;
+    float* p = row + static_cast<std::ptrdiff_t>(x) * pitch;
+    std::fill_n(p, pitch, 0.F);
+    p[strokes[x] - 1] = 1;
+  }
+}
+
+// The votes of the forest for each pixel of a view, weighted by what else is known. Throws
+// Cancelled.
+ProbabilityMap predict_view(const PixelVotes& votes, const StrokeEvidence& evidence,
+                            const Progress& progress) {
+  ProbabilityMap map(votes.height(), votes.label_count(), votes.width());
+  const int pitch = votes.pitch();
+  constexpr int kRows = 8;
+  parallel_for_workers((votes.height() + kRows - 1) / kRows, progress, [&] {
+    return [&, row = std::vector<float>(static_cast<std::size_t>(votes.row_size()))](
+               int item) mutable {
+      const int end = std::min(votes.height(), (item + 1) * kRows);
+      for (int y = item * kRows; y < end; ++y) {
+        std::copy_n(votes.row(y), row.size(), row.data());
+        if (evidence.surfaces != nullptr) evidence.surfaces->weigh_row(y, row.data());
+        evidence.distances.weigh_row(y, evidence.nearness, row.data());
+        if (!evidence.painted.empty()) {
+          keep_strokes(evidence.painted.row(y), votes.width(), pitch, row.data());
+        }
+        store_row(row.data(), pitch, map.view(), y);
+      }
+    };
+  });
+  return map;
+}
+
+/// Edges of color that a path along a surface should not cross.
+std::vector<Image<float>> color_guides(VolumeView<const float> features) {
+  std::vector<Image<float>> planes;
+  for (int c = 0; c < 3; ++c) {
+    Image<float>& plane = planes.emplace_back(features.height, features.width);
+    for (int y = 0; y < features.height; ++y) {
+      std::copy_n(features.row(y, kWiderSurfaceLayer + c), features.width, plane.row(y));
+    }
+  }
+  return planes;
+}
+
+bool is_painted(const Scribbles& scribbles, ViewIndex view) {
+  return std::ranges::find(scribbles.views, view, &ViewScribbles::view) != scribbles.views.end();
+}
+
+constexpr int kRowStep = 8;
+constexpr float kSureShare = 0.7F;
+constexpr double kPrior = 3;
+
+struct Counts {
+  double fitting = kPrior, all = kPrior;
+};
+
+// Adds the pixels of a row of which the forest is sure.
+void count_row(const PixelVotes& pixel_votes, const LabelSurfaces& surfaces, int y,
+               const float* trust, std::vector<Counts>& counts) {
+  const auto labels = static_cast<std::ptrdiff_t>(counts.size());
+  const float *votes = pixel_votes.row(y), *misfits = surfaces.misfits(y);
+  for (int x = 0; x < pixel_votes.width();
+       ++x, votes += pixel_votes.pitch(), misfits += surfaces.pitch()) {
+    const auto label = std::max_element(votes, votes + labels) - votes;
+    if (votes[label] < kSureShare) continue;
+    const float least = *std::min_element(misfits, misfits + labels);
+    const auto weight = static_cast<double>(trust[x]);
+    Counts& count = counts[static_cast<std::size_t>(label)];
+    count.fitting += weight * std::exp(static_cast<double>(least - misfits[label]));
+    count.all += weight;
+  }
 }
 
 }  // namespace
@@ -181,81 +276,6 @@ void StrokeDistances::weigh_row(int y, double strength, float* probabilities) co
       probabilities);
 }
 
-namespace {
-
-/// What is known about the pixels of a view besides their features.
-struct StrokeEvidence {
-  const StrokeDistances& distances;
-  double nearness = 0;
-  const LabelSurfaces* surfaces = nullptr;  ///< Null = no disparity to compare.
-  /// Painted on this view itself: labels there are certain. Empty = none.
-  ImageView<const std::int32_t> painted{};
-};
-
-/// Rows of probabilities `[x][label]` into bytes `[label][x]`.
-void store_row(const float* row, int pitch, VolumeView<std::uint8_t> map, int y) {
-  for (int l = 0; l < map.layers; ++l) {
-    std::uint8_t* out = map.row(y, l);
-    for (int x = 0; x < map.width; ++x) {
-      const float scaled = row[static_cast<std::ptrdiff_t>(x) * pitch + l] * 255.0F + 0.5F;
-      out[x] = static_cast<std::uint8_t>(std::min(scaled, 255.0F));
-    }
-  }
-}
-
-/// Certainty on the painted pixels of a row.
-void keep_strokes(const std::int32_t* strokes, int width, int pitch, float* row) {
-  for (int x = 0; x < width; ++x) {
-    if (strokes[x] == 0) continue;
-    float* p = row + static_cast<std::ptrdiff_t>(x) * pitch;
-    std::fill_n(p, pitch, 0.F);
-    p[strokes[x] - 1] = 1;
-  }
-}
-
-// The votes of the forest for each pixel of a view, weighted by what else is known. Throws
-// Cancelled.
-ProbabilityMap predict_view(const PixelVotes& votes, const StrokeEvidence& evidence,
-                            const Progress& progress) {
-  ProbabilityMap map(votes.height(), votes.label_count(), votes.width());
-  const int pitch = votes.pitch();
-  constexpr int kRows = 8;
-  parallel_for_workers((votes.height() + kRows - 1) / kRows, progress, [&] {
-    return [&, row = std::vector<float>(static_cast<std::size_t>(votes.row_size()))](
-               int item) mutable {
-      const int end = std::min(votes.height(), (item + 1) * kRows);
-      for (int y = item * kRows; y < end; ++y) {
-        std::copy_n(votes.row(y), row.size(), row.data());
-        if (evidence.surfaces != nullptr) evidence.surfaces->weigh_row(y, row.data());
-        evidence.distances.weigh_row(y, evidence.nearness, row.data());
-        if (!evidence.painted.empty()) {
-          keep_strokes(evidence.painted.row(y), votes.width(), pitch, row.data());
-        }
-        store_row(row.data(), pitch, map.view(), y);
-      }
-    };
-  });
-  return map;
-}
-
-/// Edges of color that a path along a surface should not cross.
-std::vector<Image<float>> color_guides(VolumeView<const float> features) {
-  std::vector<Image<float>> planes;
-  for (int c = 0; c < 3; ++c) {
-    Image<float>& plane = planes.emplace_back(features.height, features.width);
-    for (int y = 0; y < features.height; ++y) {
-      std::copy_n(features.row(y, kWiderSurfaceLayer + c), features.width, plane.row(y));
-    }
-  }
-  return planes;
-}
-
-bool is_painted(const Scribbles& scribbles, ViewIndex view) {
-  return std::ranges::find(scribbles.views, view, &ViewScribbles::view) != scribbles.views.end();
-}
-
-}  // namespace
-
 ProbabilityMap predict_from_strokes(const StrokeKnowledge& known, ViewIndex view,
                                     VolumeView<const float> features, const PixelVotes& votes,
                                     const Progress& progress) {
@@ -284,35 +304,6 @@ ProbabilityMap predict_from_strokes(const StrokeKnowledge& known, ViewIndex view
   if (is_painted(known.scribbles, view)) evidence.painted = strokes.view();
   return predict_view(votes, evidence, progress);
 }
-
-namespace {
-
-constexpr int kRowStep = 8;
-constexpr float kSureShare = 0.7F;
-constexpr double kPrior = 3;
-
-struct Counts {
-  double fitting = kPrior, all = kPrior;
-};
-
-// Adds the pixels of a row of which the forest is sure.
-void count_row(const PixelVotes& pixel_votes, const LabelSurfaces& surfaces, int y,
-               const float* trust, std::vector<Counts>& counts) {
-  const auto labels = static_cast<std::ptrdiff_t>(counts.size());
-  const float *votes = pixel_votes.row(y), *misfits = surfaces.misfits(y);
-  for (int x = 0; x < pixel_votes.width();
-       ++x, votes += pixel_votes.pitch(), misfits += surfaces.pitch()) {
-    const auto label = std::max_element(votes, votes + labels) - votes;
-    if (votes[label] < kSureShare) continue;
-    const float least = *std::min_element(misfits, misfits + labels);
-    const auto weight = static_cast<double>(trust[x]);
-    Counts& count = counts[static_cast<std::size_t>(label)];
-    count.fitting += weight * std::exp(static_cast<double>(least - misfits[label]));
-    count.all += weight;
-  }
-}
-
-}  // namespace
 
 std::vector<float> surface_support(const PixelVotes& pixel_votes, const LabelSurfaces& surfaces,
                                    ImageView<const float> trust, const Progress& progress) {

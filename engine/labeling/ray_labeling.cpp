@@ -154,6 +154,48 @@ void fill_row(const TrackSources& sources, const CostTable& table, VolumeView<fl
   }
 }
 
+// A row of fewer rays than the widest vector has lanes, with rays beside it that arrive nowhere.
+void find_few_targets(const RayKernel& kernel, RayRow rays, std::int32_t* targets) {
+  float disparity[kRayColumns];
+  std::uint8_t valid[kRayColumns] = {};
+  std::int32_t found[kRayColumns];
+  std::fill_n(disparity, kRayColumns, std::numeric_limits<float>::quiet_NaN());
+  std::copy_n(rays.disparity, rays.end, disparity);
+  if (rays.valid != nullptr) {
+    std::copy_n(rays.valid, rays.end, valid);
+    rays.valid = valid;
+  }
+  const int count = rays.end;
+  rays.disparity = disparity;
+  rays.end = kRayColumns;
+  kernel.find_targets(rays, found);
+  std::copy_n(found, count, targets);
+}
+
+constexpr float kSigma = 10;  // of 255
+
+void store_view(const LightField& lf, ViewIndex view, ImageView<std::uint8_t> colors) {
+  std::vector<float> row(static_cast<std::size_t>(colors.width) * colors.channels);
+  for (int y = 0; y < colors.height; ++y) {
+    lf.read_row(view, y, 0, colors.width, row.data());
+    std::transform(row.begin(), row.end(), colors.row(y), [](float sample) {
+      return static_cast<std::uint8_t>(std::clamp(sample, 0.0F, 1.0F) * 255 + 0.5F);
+    });
+  }
+}
+
+std::unique_ptr<const ViewStack<std::uint8_t>> rounded_views(const LightField& lf, GridShape grid,
+                                                             ViewIndex first,
+                                                             const Progress& progress) {
+  auto colors = std::make_unique<ViewStack<std::uint8_t>>(grid, lf.height(), lf.width(),
+                                                          lf.channels(), first);
+  parallel_for(grid.count(), progress, [&](int i) {
+    const ViewIndex view = grid.view_at(i, first);
+    store_view(lf, view, colors->view(view));
+  });
+  return colors;
+}
+
 }  // namespace
 
 std::vector<ColumnRange> marked_columns(const std::uint8_t* marks, int width) {
@@ -308,28 +350,6 @@ Image<float> label_uncertainty(VolumeView<const std::uint8_t> probabilities) {
   return uncertainty;
 }
 
-namespace {
-
-// A row of fewer rays than the widest vector has lanes, with rays beside it that arrive nowhere.
-void find_few_targets(const RayKernel& kernel, RayRow rays, std::int32_t* targets) {
-  float disparity[kRayColumns];
-  std::uint8_t valid[kRayColumns] = {};
-  std::int32_t found[kRayColumns];
-  std::fill_n(disparity, kRayColumns, std::numeric_limits<float>::quiet_NaN());
-  std::copy_n(rays.disparity, rays.end, disparity);
-  if (rays.valid != nullptr) {
-    std::copy_n(rays.valid, rays.end, valid);
-    rays.valid = valid;
-  }
-  const int count = rays.end;
-  rays.disparity = disparity;
-  rays.end = kRayColumns;
-  kernel.find_targets(rays, found);
-  std::copy_n(found, count, targets);
-}
-
-}  // namespace
-
 void find_ray_targets(const DisparityView& from, const DisparityView& to, ViewIndex step, int y,
                       std::int32_t* targets) {
   find_ray_targets(from, to, step, y, {0, from.disparity.width}, targets);
@@ -354,34 +374,6 @@ void find_ray_targets(const DisparityView& from, const DisparityView& to, ViewIn
   if (rays.width < kRayColumns) return find_few_targets(kernel, rays, targets);
   kernel.find_targets(rays, targets);
 }
-
-namespace {
-
-constexpr float kSigma = 10;  // of 255
-
-void store_view(const LightField& lf, ViewIndex view, ImageView<std::uint8_t> colors) {
-  std::vector<float> row(static_cast<std::size_t>(colors.width) * colors.channels);
-  for (int y = 0; y < colors.height; ++y) {
-    lf.read_row(view, y, 0, colors.width, row.data());
-    std::transform(row.begin(), row.end(), colors.row(y), [](float sample) {
-      return static_cast<std::uint8_t>(std::clamp(sample, 0.0F, 1.0F) * 255 + 0.5F);
-    });
-  }
-}
-
-std::unique_ptr<const ViewStack<std::uint8_t>> rounded_views(const LightField& lf, GridShape grid,
-                                                             ViewIndex first,
-                                                             const Progress& progress) {
-  auto colors = std::make_unique<ViewStack<std::uint8_t>>(grid, lf.height(), lf.width(),
-                                                          lf.channels(), first);
-  parallel_for(grid.count(), progress, [&](int i) {
-    const ViewIndex view = grid.view_at(i, first);
-    store_view(lf, view, colors->view(view));
-  });
-  return colors;
-}
-
-}  // namespace
 
 RayColors::RayColors(const LightField& light_field, GridShape grid, ViewIndex first,
                      const Progress& progress)

@@ -88,37 +88,6 @@ void for_rows(const ViewStack<std::int32_t>& labels, int label_count, const Prog
   });
 }
 
-}  // namespace
-
-ViewStack<std::int32_t> vote_along_rays(const ViewStack<std::int32_t>& labels,
-                                        const RayVotes& votes, const Progress& progress) {
-  const Vote vote(labels, votes);
-  const int width = labels.width();
-  ViewStack<std::int32_t> decided(labels.grid(), labels.height(), width, 1, labels.first());
-  for_rows(labels, votes.label_count, progress, [&](ViewIndex view, int y, VoteRow& row) {
-    vote.decide(view, y, {0, width}, row, decided.view(view).row(y));
-  });
-  return decided;
-}
-
-ViewStack<std::int32_t> vote_again_along_rays(const ViewStack<std::int32_t>& before,
-                                              const ViewStack<std::int32_t>& labels,
-                                              const RayVotes& votes, const Progress& progress) {
-  const ViewStack<std::uint8_t> marks =
-      changed_rays(before, labels, votes.disparity, progress.part(0, 0));
-  const Vote vote(labels, votes);
-  const int width = labels.width();
-  ViewStack<std::int32_t> decided = labels.clone();
-  for_rows(labels, votes.label_count, progress, [&](ViewIndex view, int y, VoteRow& row) {
-    for (const ColumnRange columns : marked_columns(marks.view(view).row(y), width)) {
-      vote.decide(view, y, columns, row, decided.view(view).row(y));
-    }
-  });
-  return decided;
-}
-
-namespace {
-
 struct Pixel {
   int y = 0, x = 0;
 };
@@ -157,6 +126,33 @@ void mark(const std::vector<Pixel>& changed, const DisparityView& there, ViewInd
 }
 
 }  // namespace
+
+ViewStack<std::int32_t> vote_along_rays(const ViewStack<std::int32_t>& labels,
+                                        const RayVotes& votes, const Progress& progress) {
+  const Vote vote(labels, votes);
+  const int width = labels.width();
+  ViewStack<std::int32_t> decided(labels.grid(), labels.height(), width, 1, labels.first());
+  for_rows(labels, votes.label_count, progress, [&](ViewIndex view, int y, VoteRow& row) {
+    vote.decide(view, y, {0, width}, row, decided.view(view).row(y));
+  });
+  return decided;
+}
+
+ViewStack<std::int32_t> vote_again_along_rays(const ViewStack<std::int32_t>& before,
+                                              const ViewStack<std::int32_t>& labels,
+                                              const RayVotes& votes, const Progress& progress) {
+  const ViewStack<std::uint8_t> marks =
+      changed_rays(before, labels, votes.disparity, progress.part(0, 0));
+  const Vote vote(labels, votes);
+  const int width = labels.width();
+  ViewStack<std::int32_t> decided = labels.clone();
+  for_rows(labels, votes.label_count, progress, [&](ViewIndex view, int y, VoteRow& row) {
+    for (const ColumnRange columns : marked_columns(marks.view(view).row(y), width)) {
+      vote.decide(view, y, columns, row, decided.view(view).row(y));
+    }
+  });
+  return decided;
+}
 
 ViewStack<std::uint8_t> changed_rays(const ViewStack<std::int32_t>& before,
                                      const ViewStack<std::int32_t>& after,

@@ -38,6 +38,74 @@ std::vector<ViewChain> view_chains(GridShape grid) {
   return chains;
 }
 
+// As far as one undoes without a thought.
+constexpr std::size_t kMostSolved = 16;
+
+void add(const float* values, std::size_t count, Fnv1a& hash) {
+  for (std::size_t i = 0; i < count; ++i) {
+    std::uint32_t word = 0;
+    std::memcpy(&word, values + i, sizeof word);
+    hash.add_word(word);
+  }
+}
+
+std::uint64_t hash_of(const SimplexProblem& problem) {
+  Fnv1a hash;
+  const VolumeView<const float>& cost = problem.cost;
+  add(cost.data, static_cast<std::size_t>(cost.height) * cost.layers * cost.width, hash);
+  add(problem.g.data, problem.g.size(), hash);
+  const auto smoothness = static_cast<float>(problem.smoothness);
+  add(&smoothness, 1, hash);
+  return hash.value();
+}
+
+std::vector<std::vector<int>> chains_of(GridShape grid) {
+  std::vector<std::vector<int>> chains;
+  for (const ViewChain& each : view_chains(grid)) {
+    std::vector<int>& chain = chains.emplace_back(each.end - each.begin);
+    std::iota(chain.begin(), chain.end(), each.begin);
+  }
+  std::ranges::stable_sort(chains, std::ranges::greater{}, &std::vector<int>::size);
+  return chains;
+}
+
+// Of all views or none.
+bool has_disparity(const RayLabelingInput& input) {
+  const LabelProbabilities& p = *input.probabilities;
+  const DisparityField* const disparity = input.disparity;
+  if (disparity == nullptr || disparity->empty() ||
+      disparity->disparity.height() != p.views[0].height() ||
+      disparity->disparity.width() != p.views[0].width()) {
+    return false;
+  }
+  for (int i = 0; i < p.grid.count(); ++i) {
+    if (!disparity->contains(p.view_at(i))) return false;
+  }
+  return true;
+}
+
+std::vector<cuda::RayView> views_of(const RayLabelingInput& input,
+                                    const std::vector<Image<float>>& weights,
+                                    const std::vector<Image<std::int32_t>>& painted,
+                                    const ViewStack<std::uint8_t>* colors) {
+  const LabelProbabilities& p = *input.probabilities;
+  const bool follows_rays = has_disparity(input);
+  std::vector<cuda::RayView> views;
+  for (int i = 0; i < p.grid.count(); ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    const ViewIndex view = p.view_at(i);
+    cuda::RayView& each = views.emplace_back();
+    each.probabilities = p.views[at].view();
+    each.weights = weights[at].data();
+    each.painted = painted[at].data();
+    if (colors != nullptr) each.colors = colors->view(view).data;
+    if (!follows_rays) continue;
+    each.disparity = input.disparity->view(view).disparity.data;
+    each.valid = input.disparity->view(view).valid.data;
+  }
+  return views;
+}
+
 }  // namespace
 
 SimplexOptions simplex_options(const RayLabelingParameters& parameters, double gap) {
@@ -148,31 +216,6 @@ SimplexSolver& ViewProblem::own_solver() {
   return *solver_;
 }
 
-namespace {
-
-// As far as one undoes without a thought.
-constexpr std::size_t kMostSolved = 16;
-
-void add(const float* values, std::size_t count, Fnv1a& hash) {
-  for (std::size_t i = 0; i < count; ++i) {
-    std::uint32_t word = 0;
-    std::memcpy(&word, values + i, sizeof word);
-    hash.add_word(word);
-  }
-}
-
-std::uint64_t hash_of(const SimplexProblem& problem) {
-  Fnv1a hash;
-  const VolumeView<const float>& cost = problem.cost;
-  add(cost.data, static_cast<std::size_t>(cost.height) * cost.layers * cost.width, hash);
-  add(problem.g.data, problem.g.size(), hash);
-  const auto smoothness = static_cast<float>(problem.smoothness);
-  add(&smoothness, 1, hash);
-  return hash.value();
-}
-
-}  // namespace
-
 double KeptSolver::bytes(double pixels, int labels) {
   return (8 * 4.0 / 3 + 1.0 / 3) * sizeof(float) * pixels * labels;
 }
@@ -212,57 +255,6 @@ void KeptSolver::drop() {
   solver_.reset();
   solved_.clear();
 }
-
-namespace {
-
-std::vector<std::vector<int>> chains_of(GridShape grid) {
-  std::vector<std::vector<int>> chains;
-  for (const ViewChain& each : view_chains(grid)) {
-    std::vector<int>& chain = chains.emplace_back(each.end - each.begin);
-    std::iota(chain.begin(), chain.end(), each.begin);
-  }
-  std::ranges::stable_sort(chains, std::ranges::greater{}, &std::vector<int>::size);
-  return chains;
-}
-
-// Of all views or none.
-bool has_disparity(const RayLabelingInput& input) {
-  const LabelProbabilities& p = *input.probabilities;
-  const DisparityField* const disparity = input.disparity;
-  if (disparity == nullptr || disparity->empty() ||
-      disparity->disparity.height() != p.views[0].height() ||
-      disparity->disparity.width() != p.views[0].width()) {
-    return false;
-  }
-  for (int i = 0; i < p.grid.count(); ++i) {
-    if (!disparity->contains(p.view_at(i))) return false;
-  }
-  return true;
-}
-
-std::vector<cuda::RayView> views_of(const RayLabelingInput& input,
-                                    const std::vector<Image<float>>& weights,
-                                    const std::vector<Image<std::int32_t>>& painted,
-                                    const ViewStack<std::uint8_t>* colors) {
-  const LabelProbabilities& p = *input.probabilities;
-  const bool follows_rays = has_disparity(input);
-  std::vector<cuda::RayView> views;
-  for (int i = 0; i < p.grid.count(); ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    const ViewIndex view = p.view_at(i);
-    cuda::RayView& each = views.emplace_back();
-    each.probabilities = p.views[at].view();
-    each.weights = weights[at].data();
-    each.painted = painted[at].data();
-    if (colors != nullptr) each.colors = colors->view(view).data;
-    if (!follows_rays) continue;
-    each.disparity = input.disparity->view(view).disparity.data;
-    each.valid = input.disparity->view(view).valid.data;
-  }
-  return views;
-}
-
-}  // namespace
 
 bool is_for_device(const RayLabelingInput& input, const RayLabelingParameters& parameters) {
   return parameters.device == Device::Cuda && parameters.smoothness > 0 &&

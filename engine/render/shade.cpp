@@ -15,7 +15,6 @@
 #include <type_traits>
 
 namespace episcope::render {
-
 namespace {
 
 // Colors 0xRRGGBB at equal steps from low to high; between them is interpolated linearly.
@@ -93,36 +92,6 @@ Rgb interpolated(std::span<const std::uint32_t> colors, double position) {
   return color;
 }
 
-}  // namespace
-
-Rgb ColorMap::color(double value, double min, double max) const {
-  if (std::isnan(value)) return invalid;
-  const double position = max > min ? (value - min) / (max - min) : (value >= max ? 1 : 0);
-  const double last = static_cast<double>(colors.size() - 1);
-  return colors[static_cast<std::size_t>(std::lround(std::clamp(position, 0.0, 1.0) * last))];
-}
-
-std::vector<std::string> color_map_names() {
-  std::vector<std::string> names;
-  for (const auto& source : kSources) names.emplace_back(source.name);
-  return names;
-}
-
-ColorMap color_map(const std::string& name) {
-  for (const auto& source : kSources) {
-    if (name != source.name) continue;
-    ColorMap map{name, {}, unpacked(source.invalid)};
-    for (std::size_t i = 0; i < map.colors.size(); ++i) {
-      const double last = static_cast<double>(map.colors.size() - 1);
-      map.colors[i] = interpolated(source.colors, static_cast<double>(i) / last);
-    }
-    return map;
-  }
-  throw InvalidInput(no_such_name("color map", name, color_map_names()));
-}
-
-namespace {
-
 constexpr int kRgba = 4;
 constexpr std::uint8_t kOpaque = 255;
 
@@ -170,92 +139,7 @@ std::vector<float> valid_values(ImageView<const float> map, ImageView<const std:
   return values;
 }
 
-}  // namespace
-
-Shading default_shading(Quantity quantity, Interval disparity_range) {
-  const QuantityInfo& info = info_of(quantity);
-  const bool is_disparity = info.rule == RangeRule::Disparity;
-  return {color_map(info.color_map), is_disparity       ? disparity_range
-                                     : info.has_scale() ? info.range
-                                                        : Interval{0, 1}};
-}
-
-Image<std::uint8_t> shade(ImageView<const float> map, ImageView<const std::uint8_t> valid,
-                          const Shading& shading) {
-  Image<std::uint8_t> picture(map.height, map.width, kRgba);
-  const DisparityView pixels{map, valid};
-  for (int y = 0; y < map.height; ++y) {
-    std::uint8_t* target = picture.row(y);
-    for (int x = 0; x < map.width; ++x, target += kRgba) {
-      put(target, pixels.is_valid(y, x)
-                      ? shading.map.color(map.at(y, x), shading.range.min, shading.range.max)
-                      : shading.map.invalid);
-    }
-  }
-  return picture;
-}
-
-Image<std::uint8_t> shade_view(const LightField& light_field, ViewIndex view,
-                               const ToneTable* tone) {
-  return std::visit(
-      [&](const auto& stack) {
-        return tone ? opaque_picture(stack.view(view), *tone)
-                    : opaque_picture(stack.view(view), PlainTone());
-      },
-      light_field.samples());
-}
-
-namespace {
-
 constexpr int kDash = 4;  // px of a contour
-
-}  // namespace
-
-Image<std::uint8_t> shade_labels(ImageView<const std::int32_t> labels,
-                                 const std::vector<LabelInfo>& infos, const LabelStyle& style) {
-  Image<std::uint8_t> picture(labels.height, labels.width, kRgba);
-  std::map<std::int32_t, Rgb> colors;
-  for (const LabelInfo& info : infos) colors[info.id] = info.color;
-  std::int32_t last = 0;
-  bool is_hidden = false;
-  Rgb color{};
-  const bool has_contours = style.drawing != LabelDrawing::Fill;
-  for (int y = 0; y < labels.height; ++y) {
-    for (int x = 0; x < labels.width; ++x) {
-      const std::int32_t id = labels.at(y, x);
-      if (id <= 0) continue;
-      if (id != last) {
-        color = colors.try_emplace(id, label_color(id)).first->second;
-        is_hidden = style.hidden.contains(id);
-        last = id;
-      }
-      if (is_hidden) continue;
-      if (!has_contours) {
-        put(&picture.at(y, x), color);
-      } else if (is_on_contour(labels, y, x)) {
-        const bool is_gap = (x / kDash + y / kDash) % 2 != 0;
-        put(&picture.at(y, x), is_gap ? Rgb{} : color);
-      } else if (style.drawing == LabelDrawing::Both) {
-        put(&picture.at(y, x), color, kFaintLabel);
-      }
-    }
-  }
-  return picture;
-}
-
-Image<std::uint8_t> shade_samples(ImageView<const float> samples, const ToneTable* tone) {
-  return tone ? opaque_picture(samples, *tone) : opaque_picture(samples, PlainTone());
-}
-
-Interval robust_range(ImageView<const float> map, ImageView<const std::uint8_t> valid, double low,
-                      double high) {
-  std::vector<float> values = valid_values(map, valid);
-  if (values.empty()) return {0, 1};
-  const float min = quantile(values, low);
-  return {min, quantile(values, high)};
-}
-
-namespace {
 
 /// How one view is sampled: at (x + dx + fraction_x, y + dy + fraction_y).
 struct Shift {
@@ -410,7 +294,136 @@ int begin_of(int i, int from, int to) {
   return static_cast<int>(static_cast<long>(i) * from / to);
 }
 
+constexpr double kDarkest = 0.005;  // quantiles
+constexpr double kBrightest = 0.995;
+constexpr double kDark = 0.12;    // a median below it
+constexpr double kMiddle = 0.35;  // where the median of a dark view is lifted to
+
+// Samples of all channels that show something, in [0, 1].
+std::vector<float> shown_samples(const LightField& light_field, ViewIndex view) {
+  const int channels = light_field.channels();
+  const int width = light_field.width();
+  std::vector<float> row(static_cast<std::size_t>(width) * channels);
+  std::vector<float> samples;
+  samples.reserve(row.size() * light_field.height());
+  const auto valid = light_field.valid_of(view);
+  for (int y = 0; y < light_field.height(); ++y) {
+    light_field.read_row(view, y, 0, width, row.data());
+    for (int x = 0; x < width; ++x) {
+      if (!valid.empty() && valid.at(y, x) == 0) continue;
+      for (int c = 0; c < channels; ++c) {
+        const float sample = row[static_cast<std::size_t>(x) * channels + c];
+        if (std::isfinite(sample)) samples.push_back(std::clamp(sample, 0.0F, 1.0F));
+      }
+    }
+  }
+  return samples;
+}
+
 }  // namespace
+
+Rgb ColorMap::color(double value, double min, double max) const {
+  if (std::isnan(value)) return invalid;
+  const double position = max > min ? (value - min) / (max - min) : (value >= max ? 1 : 0);
+  const double last = static_cast<double>(colors.size() - 1);
+  return colors[static_cast<std::size_t>(std::lround(std::clamp(position, 0.0, 1.0) * last))];
+}
+
+std::vector<std::string> color_map_names() {
+  std::vector<std::string> names;
+  for (const auto& source : kSources) names.emplace_back(source.name);
+  return names;
+}
+
+ColorMap color_map(const std::string& name) {
+  for (const auto& source : kSources) {
+    if (name != source.name) continue;
+    ColorMap map{name, {}, unpacked(source.invalid)};
+    for (std::size_t i = 0; i < map.colors.size(); ++i) {
+      const double last = static_cast<double>(map.colors.size() - 1);
+      map.colors[i] = interpolated(source.colors, static_cast<double>(i) / last);
+    }
+    return map;
+  }
+  throw InvalidInput(no_such_name("color map", name, color_map_names()));
+}
+
+Shading default_shading(Quantity quantity, Interval disparity_range) {
+  const QuantityInfo& info = info_of(quantity);
+  const bool is_disparity = info.rule == RangeRule::Disparity;
+  return {color_map(info.color_map), is_disparity       ? disparity_range
+                                     : info.has_scale() ? info.range
+                                                        : Interval{0, 1}};
+}
+
+Image<std::uint8_t> shade(ImageView<const float> map, ImageView<const std::uint8_t> valid,
+                          const Shading& shading) {
+  Image<std::uint8_t> picture(map.height, map.width, kRgba);
+  const DisparityView pixels{map, valid};
+  for (int y = 0; y < map.height; ++y) {
+    std::uint8_t* target = picture.row(y);
+    for (int x = 0; x < map.width; ++x, target += kRgba) {
+      put(target, pixels.is_valid(y, x)
+                      ? shading.map.color(map.at(y, x), shading.range.min, shading.range.max)
+                      : shading.map.invalid);
+    }
+  }
+  return picture;
+}
+
+Image<std::uint8_t> shade_view(const LightField& light_field, ViewIndex view,
+                               const ToneTable* tone) {
+  return std::visit(
+      [&](const auto& stack) {
+        return tone ? opaque_picture(stack.view(view), *tone)
+                    : opaque_picture(stack.view(view), PlainTone());
+      },
+      light_field.samples());
+}
+
+Image<std::uint8_t> shade_labels(ImageView<const std::int32_t> labels,
+                                 const std::vector<LabelInfo>& infos, const LabelStyle& style) {
+  Image<std::uint8_t> picture(labels.height, labels.width, kRgba);
+  std::map<std::int32_t, Rgb> colors;
+  for (const LabelInfo& info : infos) colors[info.id] = info.color;
+  std::int32_t last = 0;
+  bool is_hidden = false;
+  Rgb color{};
+  const bool has_contours = style.drawing != LabelDrawing::Fill;
+  for (int y = 0; y < labels.height; ++y) {
+    for (int x = 0; x < labels.width; ++x) {
+      const std::int32_t id = labels.at(y, x);
+      if (id <= 0) continue;
+      if (id != last) {
+        color = colors.try_emplace(id, label_color(id)).first->second;
+        is_hidden = style.hidden.contains(id);
+        last = id;
+      }
+      if (is_hidden) continue;
+      if (!has_contours) {
+        put(&picture.at(y, x), color);
+      } else if (is_on_contour(labels, y, x)) {
+        const bool is_gap = (x / kDash + y / kDash) % 2 != 0;
+        put(&picture.at(y, x), is_gap ? Rgb{} : color);
+      } else if (style.drawing == LabelDrawing::Both) {
+        put(&picture.at(y, x), color, kFaintLabel);
+      }
+    }
+  }
+  return picture;
+}
+
+Image<std::uint8_t> shade_samples(ImageView<const float> samples, const ToneTable* tone) {
+  return tone ? opaque_picture(samples, *tone) : opaque_picture(samples, PlainTone());
+}
+
+Interval robust_range(ImageView<const float> map, ImageView<const std::uint8_t> valid, double low,
+                      double high) {
+  std::vector<float> values = valid_values(map, valid);
+  if (values.empty()) return {0, 1};
+  const float min = quantile(values, low);
+  return {min, quantile(values, high)};
+}
 
 Image<float> refocus(const LightField& light_field, ViewIndex view, double focus_px) {
   if (!light_field.grid().contains(view)) {
@@ -442,36 +455,6 @@ Picture fitted(const Picture& picture, int longest_px) {
   }
   return small;
 }
-
-namespace {
-
-constexpr double kDarkest = 0.005;  // quantiles
-constexpr double kBrightest = 0.995;
-constexpr double kDark = 0.12;    // a median below it
-constexpr double kMiddle = 0.35;  // where the median of a dark view is lifted to
-
-// Samples of all channels that show something, in [0, 1].
-std::vector<float> shown_samples(const LightField& light_field, ViewIndex view) {
-  const int channels = light_field.channels();
-  const int width = light_field.width();
-  std::vector<float> row(static_cast<std::size_t>(width) * channels);
-  std::vector<float> samples;
-  samples.reserve(row.size() * light_field.height());
-  const auto valid = light_field.valid_of(view);
-  for (int y = 0; y < light_field.height(); ++y) {
-    light_field.read_row(view, y, 0, width, row.data());
-    for (int x = 0; x < width; ++x) {
-      if (!valid.empty() && valid.at(y, x) == 0) continue;
-      for (int c = 0; c < channels; ++c) {
-        const float sample = row[static_cast<std::size_t>(x) * channels + c];
-        if (std::isfinite(sample)) samples.push_back(std::clamp(sample, 0.0F, 1.0F));
-      }
-    }
-  }
-  return samples;
-}
-
-}  // namespace
 
 Tone automatic_tone(const LightField& light_field, ViewIndex view) {
   std::vector<float> samples = shown_samples(light_field, view);

@@ -240,12 +240,6 @@ void cut_lifted(const LayeredShape& shape, const float* phi, int* const labels[k
   }
 }
 
-}  // namespace
-
-const LiftedKernel kLiftedKernel = {move_primal_lifted, move_dual, bound_lifted, cut_lifted};
-
-namespace {
-
 // θ such that Σ_l max(v_l − θ, 0) = 1, of the columns at `v`. Newton's method from below: the sum
 // falls and is convex in θ, so every step stays below the solution and the last is exact (the steps
 // of Michelot 1986). max v − 1 ≤ θ is the solution already where one label has it all. Layers that
@@ -394,6 +388,8 @@ void cut_simplex(const LayeredShape& shape, const float* u, int* labels) {
 }
 
 }  // namespace
+
+const LiftedKernel kLiftedKernel = {move_primal_lifted, move_dual, bound_lifted, cut_lifted};
 
 const SimplexKernel kSimplexKernel = {move_primal_simplex, move_dual, project,
                                       bound_simplex,       energy,    cut_simplex};

@@ -116,6 +116,20 @@ void require_different(const PlenopticPictures& pictures) {
   if (white && dark) check(*dark, "dark", *white);
 }
 
+constexpr const char* kDecodedFrom = "decoded from ";
+
+/// Raw picture, lenses and facts in one line.
+std::string origin_text(const Decoded& decoded, const RawPicture& raw) {
+  const LensGrid& grid = decoded.grid;
+  std::string text =
+      fmt::format(finding_text("plenoptic.decoded"), raw.name, lattice_name(grid.lattice),
+                  grid.pitch_px, grid.rotation_degrees, decoded.step_px);
+  const auto facts = raw.facts.table();
+  if (facts.empty()) return text;
+  return text + "; " +
+         joined(facts, ", ", [](const auto& fact) { return fact.first + " " + fact.second; });
+}
+
 }  // namespace
 
 FoundPictures read_pictures(const PictureFiles& files) {
@@ -159,24 +173,6 @@ RawFacts read_optics(const fs::path& path) {
   }
   return facts;
 }
-
-namespace {
-
-constexpr const char* kDecodedFrom = "decoded from ";
-
-/// Raw picture, lenses and facts in one line.
-std::string origin_text(const Decoded& decoded, const RawPicture& raw) {
-  const LensGrid& grid = decoded.grid;
-  std::string text =
-      fmt::format(finding_text("plenoptic.decoded"), raw.name, lattice_name(grid.lattice),
-                  grid.pitch_px, grid.rotation_degrees, decoded.step_px);
-  const auto facts = raw.facts.table();
-  if (facts.empty()) return text;
-  return text + "; " +
-         joined(facts, ", ", [](const auto& fact) { return fact.first + " " + fact.second; });
-}
-
-}  // namespace
 
 Scene scene_of(const Decoded& decoded, const FoundPictures& found) {
   Scene scene;
