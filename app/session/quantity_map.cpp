@@ -3,7 +3,7 @@
 
 #include "app/session/result_fit.h"
 #include "engine/core/text.h"
-#include "engine/evaluation/label_quality.h"
+#include "engine/evaluation/metrics.h"
 #include "engine/labeling/edge_probability.h"
 #include "engine/labeling/ray_labeling.h"
 

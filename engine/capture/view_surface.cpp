@@ -9,6 +9,7 @@
 #include <cmath>
 
 namespace episcope::capture {
+
 namespace {
 
 /// Whether the surface jumps between (y, x) and its neighbor to the right or, if `is_down`, below.
@@ -48,6 +49,111 @@ void mark_cracks(ViewSurface& view, double jump, const Progress& progress) {
     }
   }
 }
+
+}  // namespace
+
+/// Side of a tile in px.
+constexpr int kTile = 64;
+
+/// Which triangles reach into which tile of a view, those seen from outside apart.
+class TileBins {
+ public:
+  /// Keeps its memory from view to view. Throws Cancelled.
+  void fill(std::span<const Face> faces, std::span<const ScreenVertex> vertices, int height,
+            int width, bool both_sides, const Progress& progress);
+
+  [[nodiscard]] int tiles_across() const { return across_; }
+  [[nodiscard]] int tile_count() const { return across_ * down_; }
+  [[nodiscard]] int chunk_count() const { return static_cast<int>(chunks_.size()); }
+  /// Triangles of the tile, in the order of the mesh, chunk after chunk.
+  [[nodiscard]] std::span<const std::uint32_t> faces(int chunk, int tile, bool is_front) const;
+
+ private:
+  struct Entry {
+    std::uint32_t face;
+    std::uint32_t bin;
+  };
+  struct Chunk {
+    std::vector<Entry> entries;
+    std::vector<std::uint32_t> starts;  ///< Of bin after bin, and the end.
+    std::vector<std::uint32_t> sorted;
+  };
+  void bin_face(std::uint32_t face, const std::array<ScreenVertex, 3>& v, Chunk& chunk) const;
+  void sort(Chunk& chunk) const;
+
+  std::vector<Chunk> chunks_;
+  int across_ = 0;
+  int down_ = 0;
+  int height_ = 0;
+  int width_ = 0;
+  bool both_sides_ = false;
+};
+
+constexpr std::size_t kChunkFaces = 1 << 16;
+
+void TileBins::bin_face(std::uint32_t face, const std::array<ScreenVertex, 3>& v,
+                        Chunk& chunk) const {
+  if (!(v[0].w > 0 && v[1].w > 0 && v[2].w > 0)) return;
+  const auto [left, right] = std::minmax({v[0].x, v[1].x, v[2].x});
+  const auto [top, bottom] = std::minmax({v[0].y, v[1].y, v[2].y});
+  if (right < -0.5F || bottom < -0.5F || left > static_cast<float>(width_) - 0.5F ||
+      top > static_cast<float>(height_) - 0.5F) {
+    return;
+  }
+  const double turn = turn_of(v);
+  if (turn == 0) return;
+  const std::uint32_t side = turn < 0 || both_sides_ ? 0 : 1;
+  const auto tile_of = [](float at, int most) {
+    return std::clamp(static_cast<int>(std::clamp(at + 0.5F, 0.0F, 1e6F)), 0, most - 1) / kTile;
+  };
+  for (int ty = tile_of(top, height_); ty <= tile_of(bottom, height_); ++ty) {
+    for (int tx = tile_of(left, width_); tx <= tile_of(right, width_); ++tx) {
+      chunk.entries.push_back({face, static_cast<std::uint32_t>(ty * across_ + tx) * 2 + side});
+    }
+  }
+}
+
+void TileBins::sort(Chunk& chunk) const {
+  chunk.starts.assign(static_cast<std::size_t>(tile_count()) * 2 + 1, 0);
+  for (const Entry& entry : chunk.entries) ++chunk.starts[entry.bin + 1];
+  for (std::size_t i = 1; i < chunk.starts.size(); ++i) chunk.starts[i] += chunk.starts[i - 1];
+  chunk.sorted.resize(chunk.entries.size());
+  std::vector<std::uint32_t> next(chunk.starts.begin(), chunk.starts.end() - 1);
+  for (const Entry& entry : chunk.entries) chunk.sorted[next[entry.bin]++] = entry.face;
+  chunk.entries.clear();
+}
+
+void TileBins::fill(std::span<const Face> faces, std::span<const ScreenVertex> vertices, int height,
+                    int width, bool both_sides, const Progress& progress) {
+  height_ = height;
+  width_ = width;
+  both_sides_ = both_sides;
+  across_ = (width + kTile - 1) / kTile;
+  down_ = (height + kTile - 1) / kTile;
+  chunks_.resize((faces.size() + kChunkFaces - 1) / kChunkFaces);
+  parallel_for(chunk_count(), progress, [&](int index) {
+    Chunk& chunk = chunks_[index];
+    chunk.entries.clear();
+    const std::size_t first = index * kChunkFaces;
+    const std::size_t end = std::min(first + kChunkFaces, faces.size());
+    for (std::size_t i = first; i < end; ++i) {
+      const Face& f = faces[i];
+      bin_face(static_cast<std::uint32_t>(i), {vertices[f[0]], vertices[f[1]], vertices[f[2]]},
+               chunk);
+    }
+    sort(chunk);
+    // Entries of all chunks at once would take twice the memory of the mesh.
+    std::vector<Entry>().swap(chunk.entries);
+  });
+}
+
+std::span<const std::uint32_t> TileBins::faces(int chunk, int tile, bool is_front) const {
+  const Chunk& of = chunks_[chunk];
+  const std::size_t bin = static_cast<std::size_t>(tile) * 2 + (is_front ? 0 : 1);
+  return {of.sorted.data() + of.starts[bin], of.starts[bin + 1] - of.starts[bin]};
+}
+
+namespace {
 
 /// What all tiles of a view share.
 struct RasterInput {
@@ -300,146 +406,7 @@ void put(int y, int x, const PixelSurface& surface, ViewSurface& view) {
   view.state.at(y, x) = is_seen ? ViewSurface::Seen : ViewSurface::Unsure;
 }
 
-void write_view(const ViewSurface& surface, const PlacedScene& scene, const CameraGrid& camera,
-                ViewIndex view, GroundTruth& truth) {
-  const ImageView<float> disparity = truth.field.disparity.view(view);
-  const ImageView<std::uint8_t> valid = truth.field.valid.view(view);
-  const ImageView<std::int32_t> labels = truth.labels.view(view);
-  const double scale = camera.baseline * camera.focal_length;
-  for (int y = 0; y < disparity.height; ++y) {
-    for (int x = 0; x < disparity.width; ++x) {
-      const std::uint32_t face = surface.triangle.at(y, x);
-      const double w = surface.inverse_depth.at(y, x);
-      const bool is_seen = surface.state.at(y, x) == ViewSurface::Seen;
-      disparity.at(y, x) = is_seen ? static_cast<float>(scale * w - camera.shift) : 0.0F;
-      valid.at(y, x) = is_seen ? 1 : 0;
-      labels.at(y, x) = face == PixelSurface::kNone ? 0 : scene.mesh_of(face) + 1;
-    }
-  }
-}
-
-/// Wrong poses and wrong orientation are told from the center view.
-void require_seen(const ViewSurface& surface) {
-  const auto count = [&](ViewSurface::State state) {
-    return std::ranges::count(surface.state, static_cast<std::uint8_t>(state));
-  };
-  const auto seen = count(ViewSurface::Seen);
-  const auto unsure = count(ViewSurface::Unsure);
-  if (seen + unsure == 0) {
-    throw InvalidInput(
-        "the meshes are not in the picture of the center view; check their poses, and that pose "
-        "and light field are in the same unit");
-  }
-  if (unsure > 3 * seen) {
-    throw InvalidInput(
-        "the center view sees the meshes from inside (" + std::to_string(unsure) + " of " +
-        std::to_string(seen + unsure) +
-        " pixels): their faces are wound the wrong way; turn them, or use --both-sides");
-  }
-}
-
 }  // namespace
-
-/// Side of a tile in px.
-constexpr int kTile = 64;
-
-/// Which triangles reach into which tile of a view, those seen from outside apart.
-class TileBins {
- public:
-  /// Keeps its memory from view to view. Throws Cancelled.
-  void fill(std::span<const Face> faces, std::span<const ScreenVertex> vertices, int height,
-            int width, bool both_sides, const Progress& progress);
-
-  [[nodiscard]] int tiles_across() const { return across_; }
-  [[nodiscard]] int tile_count() const { return across_ * down_; }
-  [[nodiscard]] int chunk_count() const { return static_cast<int>(chunks_.size()); }
-  /// Triangles of the tile, in the order of the mesh, chunk after chunk.
-  [[nodiscard]] std::span<const std::uint32_t> faces(int chunk, int tile, bool is_front) const;
-
- private:
-  struct Entry {
-    std::uint32_t face;
-    std::uint32_t bin;
-  };
-  struct Chunk {
-    std::vector<Entry> entries;
-    std::vector<std::uint32_t> starts;  ///< Of bin after bin, and the end.
-    std::vector<std::uint32_t> sorted;
-  };
-  void bin_face(std::uint32_t face, const std::array<ScreenVertex, 3>& v, Chunk& chunk) const;
-  void sort(Chunk& chunk) const;
-
-  std::vector<Chunk> chunks_;
-  int across_ = 0;
-  int down_ = 0;
-  int height_ = 0;
-  int width_ = 0;
-  bool both_sides_ = false;
-};
-
-constexpr std::size_t kChunkFaces = 1 << 16;
-
-void TileBins::bin_face(std::uint32_t face, const std::array<ScreenVertex, 3>& v,
-                        Chunk& chunk) const {
-  if (!(v[0].w > 0 && v[1].w > 0 && v[2].w > 0)) return;
-  const auto [left, right] = std::minmax({v[0].x, v[1].x, v[2].x});
-  const auto [top, bottom] = std::minmax({v[0].y, v[1].y, v[2].y});
-  if (right < -0.5F || bottom < -0.5F || left > static_cast<float>(width_) - 0.5F ||
-      top > static_cast<float>(height_) - 0.5F) {
-    return;
-  }
-  const double turn = turn_of(v);
-  if (turn == 0) return;
-  const std::uint32_t side = turn < 0 || both_sides_ ? 0 : 1;
-  const auto tile_of = [](float at, int most) {
-    return std::clamp(static_cast<int>(std::clamp(at + 0.5F, 0.0F, 1e6F)), 0, most - 1) / kTile;
-  };
-  for (int ty = tile_of(top, height_); ty <= tile_of(bottom, height_); ++ty) {
-    for (int tx = tile_of(left, width_); tx <= tile_of(right, width_); ++tx) {
-      chunk.entries.push_back({face, static_cast<std::uint32_t>(ty * across_ + tx) * 2 + side});
-    }
-  }
-}
-
-void TileBins::sort(Chunk& chunk) const {
-  chunk.starts.assign(static_cast<std::size_t>(tile_count()) * 2 + 1, 0);
-  for (const Entry& entry : chunk.entries) ++chunk.starts[entry.bin + 1];
-  for (std::size_t i = 1; i < chunk.starts.size(); ++i) chunk.starts[i] += chunk.starts[i - 1];
-  chunk.sorted.resize(chunk.entries.size());
-  std::vector<std::uint32_t> next(chunk.starts.begin(), chunk.starts.end() - 1);
-  for (const Entry& entry : chunk.entries) chunk.sorted[next[entry.bin]++] = entry.face;
-  chunk.entries.clear();
-}
-
-void TileBins::fill(std::span<const Face> faces, std::span<const ScreenVertex> vertices, int height,
-                    int width, bool both_sides, const Progress& progress) {
-  height_ = height;
-  width_ = width;
-  both_sides_ = both_sides;
-  across_ = (width + kTile - 1) / kTile;
-  down_ = (height + kTile - 1) / kTile;
-  chunks_.resize((faces.size() + kChunkFaces - 1) / kChunkFaces);
-  parallel_for(chunk_count(), progress, [&](int index) {
-    Chunk& chunk = chunks_[index];
-    chunk.entries.clear();
-    const std::size_t first = index * kChunkFaces;
-    const std::size_t end = std::min(first + kChunkFaces, faces.size());
-    for (std::size_t i = first; i < end; ++i) {
-      const Face& f = faces[i];
-      bin_face(static_cast<std::uint32_t>(i), {vertices[f[0]], vertices[f[1]], vertices[f[2]]},
-               chunk);
-    }
-    sort(chunk);
-    // Entries of all chunks at once would take twice the memory of the mesh.
-    std::vector<Entry>().swap(chunk.entries);
-  });
-}
-
-std::span<const std::uint32_t> TileBins::faces(int chunk, int tile, bool is_front) const {
-  const Chunk& of = chunks_[chunk];
-  const std::size_t bin = static_cast<std::size_t>(tile) * 2 + (is_front ? 0 : 1);
-  return {of.sorted.data() + of.starts[bin], of.starts[bin + 1] - of.starts[bin]};
-}
 
 int PlacedScene::mesh_of(std::uint32_t face) const {
   return static_cast<int>(std::ranges::upper_bound(first_face, face) - first_face.begin()) - 1;
@@ -511,6 +478,48 @@ ViewSurface ViewRaster::view(const ViewCamera& camera, const Progress& progress)
   mark_cracks(view, s.jump, progress.part(0.95, 1));
   return view;
 }
+
+namespace {
+
+void write_view(const ViewSurface& surface, const PlacedScene& scene, const CameraGrid& camera,
+                ViewIndex view, GroundTruth& truth) {
+  const ImageView<float> disparity = truth.field.disparity.view(view);
+  const ImageView<std::uint8_t> valid = truth.field.valid.view(view);
+  const ImageView<std::int32_t> labels = truth.labels.view(view);
+  const double scale = camera.baseline * camera.focal_length;
+  for (int y = 0; y < disparity.height; ++y) {
+    for (int x = 0; x < disparity.width; ++x) {
+      const std::uint32_t face = surface.triangle.at(y, x);
+      const double w = surface.inverse_depth.at(y, x);
+      const bool is_seen = surface.state.at(y, x) == ViewSurface::Seen;
+      disparity.at(y, x) = is_seen ? static_cast<float>(scale * w - camera.shift) : 0.0F;
+      valid.at(y, x) = is_seen ? 1 : 0;
+      labels.at(y, x) = face == PixelSurface::kNone ? 0 : scene.mesh_of(face) + 1;
+    }
+  }
+}
+
+/// Wrong poses and wrong orientation are told from the center view.
+void require_seen(const ViewSurface& surface) {
+  const auto count = [&](ViewSurface::State state) {
+    return std::ranges::count(surface.state, static_cast<std::uint8_t>(state));
+  };
+  const auto seen = count(ViewSurface::Seen);
+  const auto unsure = count(ViewSurface::Unsure);
+  if (seen + unsure == 0) {
+    throw InvalidInput(
+        "the meshes are not in the picture of the center view; check their poses, and that pose "
+        "and light field are in the same unit");
+  }
+  if (unsure > 3 * seen) {
+    throw InvalidInput(
+        "the center view sees the meshes from inside (" + std::to_string(unsure) + " of " +
+        std::to_string(seen + unsure) +
+        " pixels): their faces are wound the wrong way; turn them, or use --both-sides");
+  }
+}
+
+}  // namespace
 
 ViewCamera view_camera(const DepthGrid& grid, ViewIndex view) {
   const ViewIndex center = grid.grid.center();

@@ -58,6 +58,69 @@ int priority() {
   return getpriority(PRIO_PROCESS, 0);
 }
 
+}  // namespace
+
+void run_loop(int count, const Progress& progress,
+              void (*work)(const void* context, LoopItems& items), const void* context) {
+  progress.check();
+  Loop loop(count, progress);
+  const std::function<void()> run_thread = [&] { loop.run([&] { work(context, loop); }); };
+  {
+    const KeptThreads others(std::max(std::min(progress.threads(), count) - 1, 0), run_thread);
+    run_thread();
+  }
+  loop.rethrow_failure();
+  progress.check();
+}
+
+class KeptThreads::Thread {
+ public:
+  Thread() : thread_([this](const std::stop_token& end) { serve(end); }) {}
+
+  // That of the thread that made it, for good: it could be lowered, but never raised again.
+  [[nodiscard]] int made_with_priority() const { return priority_; }
+
+  void begin(const std::function<void()>& work) {
+    const std::scoped_lock lock(mutex_);
+    work_ = &work;
+    is_asked_ = true;
+    asked_.notify_one();
+  }
+
+  // What has not begun does not begin.
+  void finish() {
+    std::unique_lock lock(mutex_);
+    if (is_asked_) {
+      is_asked_ = false;
+      work_ = nullptr;
+    }
+    done_.wait(lock, [this] { return work_ == nullptr; });
+  }
+
+ private:
+  void serve(const std::stop_token& end) {
+    std::unique_lock lock(mutex_);
+    while (asked_.wait(lock, end, [this] { return is_asked_; })) {
+      is_asked_ = false;
+      lock.unlock();
+      (*work_)();
+      lock.lock();
+      work_ = nullptr;
+      done_.notify_one();
+    }
+  }
+
+  std::mutex mutex_{};
+  std::condition_variable_any asked_{};
+  std::condition_variable done_{};
+  const std::function<void()>* work_ = nullptr;  // that is asked for or runs
+  bool is_asked_ = false;
+  int priority_ = priority();
+  std::jthread thread_;  // the last member: it uses the others
+};
+
+namespace {
+
 // Those that nobody uses. Never destroyed: a loop may end later than static objects. A child of
 // fork() has none of its parent's threads.
 class Idle {
@@ -133,65 +196,6 @@ void set_turns(int nice, std::uint64_t turn_ns) {
 }
 
 }  // namespace
-
-void run_loop(int count, const Progress& progress,
-              void (*work)(const void* context, LoopItems& items), const void* context) {
-  progress.check();
-  Loop loop(count, progress);
-  const std::function<void()> run_thread = [&] { loop.run([&] { work(context, loop); }); };
-  {
-    const KeptThreads others(std::max(std::min(progress.threads(), count) - 1, 0), run_thread);
-    run_thread();
-  }
-  loop.rethrow_failure();
-  progress.check();
-}
-
-class KeptThreads::Thread {
- public:
-  Thread() : thread_([this](const std::stop_token& end) { serve(end); }) {}
-
-  // That of the thread that made it, for good: it could be lowered, but never raised again.
-  [[nodiscard]] int made_with_priority() const { return priority_; }
-
-  void begin(const std::function<void()>& work) {
-    const std::scoped_lock lock(mutex_);
-    work_ = &work;
-    is_asked_ = true;
-    asked_.notify_one();
-  }
-
-  // What has not begun does not begin.
-  void finish() {
-    std::unique_lock lock(mutex_);
-    if (is_asked_) {
-      is_asked_ = false;
-      work_ = nullptr;
-    }
-    done_.wait(lock, [this] { return work_ == nullptr; });
-  }
-
- private:
-  void serve(const std::stop_token& end) {
-    std::unique_lock lock(mutex_);
-    while (asked_.wait(lock, end, [this] { return is_asked_; })) {
-      is_asked_ = false;
-      lock.unlock();
-      (*work_)();
-      lock.lock();
-      work_ = nullptr;
-      done_.notify_one();
-    }
-  }
-
-  std::mutex mutex_{};
-  std::condition_variable_any asked_{};
-  std::condition_variable done_{};
-  const std::function<void()>* work_ = nullptr;  // that is asked for or runs
-  bool is_asked_ = false;
-  int priority_ = priority();
-  std::jthread thread_;  // the last member: it uses the others
-};
 
 KeptThreads::KeptThreads(int count, const std::function<void()>& work) {
   threads_.reserve(count);

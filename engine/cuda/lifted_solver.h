@@ -9,7 +9,7 @@
 
 namespace episcope::cuda {
 
-/// A LiftedProblem (engine/solvers/lifted_labeling.h) on the device, and when to stop.
+/// A LiftedProblem (engine/solvers/simplex_labeling.h) on the device, and when to stop.
 struct LiftedTask {
   SharedVolume cost;         ///< `[y][label][x]`, at most 512 labels.
   ImageView<const float> g;  ///< `[y][x]`, on the host, contiguous.

@@ -306,7 +306,7 @@ __global__ void vote(ViewRays rays, const std::int32_t* labels, std::int32_t* de
 
 // Labels of all views, `[view][y][x]`, after each ray has taken the label that most rays of its
 // point in its row and column of the grid have: as `vote_along_rays` of
-// engine/labeling/ray_vote.h, to the same bits. Throws DeviceFailure.
+// engine/labeling/regularizer.h, to the same bits. Throws DeviceFailure.
 void vote_along_rays(const ViewRays& rays, const std::int32_t* labels, std::int32_t* decided,
                      const DeviceStream& stream) {
   const int threads = column_threads(rays.layers);

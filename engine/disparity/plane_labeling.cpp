@@ -6,8 +6,8 @@
 #include "engine/cuda/message_labeling.h"
 #include "engine/cuda/tgv_l2.h"
 #include "engine/cuda/tv_l2.h"
+#include "engine/solvers/layered_sweep.h"
 #include "engine/solvers/message_labeling.h"
-#include "engine/solvers/pair_limits.h"
 #include "engine/solvers/tv_l2.h"
 
 #include <fmt/format.h>

@@ -8,7 +8,6 @@
 #include "engine/core/parallel.h"
 #include "engine/disparity/carried_run.h"
 #include "engine/disparity/matching_cost.h"
-#include "engine/disparity/propagate_planes.h"
 #include "engine/disparity/view_samples.h"
 
 #include <fmt/format.h>

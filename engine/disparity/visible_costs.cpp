@@ -5,7 +5,7 @@
 #include "engine/cuda/volume_costs.h"
 #include "engine/disparity/estimator.h"
 #include "engine/disparity/view_samples.h"
-#include "engine/solvers/pair_limits.h"
+#include "engine/solvers/layered_sweep.h"
 
 #include <algorithm>
 #include <cmath>

@@ -47,8 +47,8 @@ inline constexpr int kDisparitySlopeLayer = 23;
 /// u_c) and y + d·(v − v_c) in units of the larger side, so that it means the same in every view.
 /// With `set.with_disparity`: slopes of smoothed disparity along x and y, beside a jump the slope
 /// of the pixel's own surface (`disparity_slopes`). Disparity itself would tie labels to the depths
-/// at which they were painted: ground at the depth of an object became the object. label_surfaces.h
-/// compares it with the strokes instead.
+/// at which they were painted: ground at the depth of an object became the object.
+/// LabelSurfaces compares it with the strokes instead.
 ///
 /// `disparity` of the view moves places to the center view in either set; if it is empty, places
 /// are not moved. Invalid pixels take the disparity of their neighbors in the row.

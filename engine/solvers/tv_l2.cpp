@@ -576,7 +576,6 @@ TgvL2Result solve_tgv_l2(const TgvL2Problem& problem, int iterations, const Prog
   check(problem, u);
   Iteration state(problem);
   TgvL2Result result;
-  result.start_energy = state.energy();
   const Progress silent = progress.part(0, 0);
   while (result.iterations < iterations && !progress.finish_requested()) {
     state.run(silent);
