@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/cuda/forest_votes.h"
+#include "engine/cuda/ray_labels.h"
 
 #include "engine/cuda/device.cuh"
 

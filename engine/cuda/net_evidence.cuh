@@ -3,7 +3,7 @@
 
 #include "engine/cuda/device.cuh"
 #include "engine/cuda/net_layers.cuh"
-#include "engine/cuda/net_task.h"
+#include "engine/cuda/net.h"
 
 namespace episcope::cuda {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/cuda/device.cuh"
-#include "engine/cuda/net_task.h"
+#include "engine/cuda/net.h"
 
 #include <vector>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/cuda/tgv_l2.h"
+#include "engine/cuda/tv_l2.h"
 
 #include "engine/cuda/device.cuh"
 #include "engine/solvers/shared_constants.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/cuda/volume_costs.h"
+#include "engine/cuda/stereo_matcher.h"
 
 #include "engine/cuda/device.cuh"
 

@@ -3,8 +3,8 @@
 
 #include "engine/core/finding.h"
 #include "engine/core/parallel.h"
-#include "engine/cuda/line_check.h"
-#include "engine/cuda/ordering.h"
+#include "engine/cuda/orientations.h"
+#include "engine/cuda/tv_l2.h"
 #include "engine/disparity/kernels/line_kernel.h"
 #include "engine/disparity/kernels/shared_constants.h"
 #include "engine/solvers/ordering_terms.h"

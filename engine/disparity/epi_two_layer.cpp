@@ -8,7 +8,7 @@
 #include "engine/core/progress.h"
 #include "engine/cuda/host_pages.h"
 #include "engine/cuda/layer_solver.h"
-#include "engine/cuda/line_check.h"
+#include "engine/cuda/orientations.h"
 #include "engine/disparity/disparity_range.h"
 #include "engine/disparity/double_orientation.h"
 #include "engine/disparity/estimator.h"

@@ -3,7 +3,7 @@
 
 #include "engine/core/finding.h"
 #include "engine/core/parallel.h"
-#include "engine/cuda/lifted_solver.h"
+#include "engine/cuda/layer_solver.h"
 #include "engine/cuda/tv_l2.h"
 #include "engine/disparity/denoise.h"
 #include "engine/solvers/layered_sweep.h"

@@ -4,7 +4,7 @@
 #include "engine/core/isa.h"
 #include "engine/core/numbers.h"
 #include "engine/core/parallel.h"
-#include "engine/cuda/line_check.h"
+#include "engine/cuda/orientations.h"
 #include "engine/disparity/kernels/shared_constants.h"
 
 #include <algorithm>

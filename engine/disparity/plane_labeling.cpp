@@ -3,8 +3,7 @@
 
 #include "engine/core/image.h"
 #include "engine/core/parallel.h"
-#include "engine/cuda/message_labeling.h"
-#include "engine/cuda/tgv_l2.h"
+#include "engine/cuda/layer_solver.h"
 #include "engine/cuda/tv_l2.h"
 #include "engine/solvers/layered_sweep.h"
 #include "engine/solvers/message_labeling.h"

@@ -2,7 +2,7 @@
 #include "engine/disparity/visible_costs.h"
 
 #include "engine/core/parallel.h"
-#include "engine/cuda/volume_costs.h"
+#include "engine/cuda/stereo_matcher.h"
 #include "engine/disparity/estimator.h"
 #include "engine/disparity/view_samples.h"
 #include "engine/solvers/layered_sweep.h"

@@ -7,7 +7,7 @@
 #include "engine/core/isa.h"
 #include "engine/core/light_field.h"
 #include "engine/core/progress.h"
-#include "engine/cuda/forest_votes.h"
+#include "engine/cuda/ray_labels.h"
 #include "engine/labeling/forest_kernel.h"
 #include "engine/solvers/simplex_labeling.h"
 
@@ -375,7 +375,7 @@ struct DeviceLabeling {
                                           const RayLabelingParameters& parameters,
                                           const DeviceLabeling& labeling, const Progress& progress);
 
-/// A forest on the GPU (engine/cuda/forest_votes.h), whose votes have the same bits as the
+/// A forest on the GPU (engine/cuda/ray_labels.h), whose votes have the same bits as the
 /// kernel's. Throws DeviceFailure, Cancelled.
 [[nodiscard]] std::shared_ptr<const cuda::DeviceForest> copy_to_device(const FlatForest& forest,
                                                                        const Progress& progress);
