@@ -180,24 +180,23 @@ std::string cap_note(const StereoCosts& costs) {
   return fmt::format(finding_text("cap"), costs.matching.cap);
 }
 
+// Bytes of the samples on disk that so many rows of costs look at.
+double looked_at_bytes(const LightField& lf, const StereoCosts& costs, int rows) {
+  const GridShape grid = lf.grid();
+  const bool all = costs.matching.views == MatchedViews::All;
+  const double views = all ? grid.count() : grid.v + grid.u - 1;
+  const double steps = std::max(grid.v, grid.u);
+  const double reach = steps * std::max(std::abs(costs.range.min), std::abs(costs.range.max)) + 32;
+  const double view_row = static_cast<double>(lf.byte_size()) / grid.count() / lf.height();
+  return views * view_row * std::min<double>(rows + 2 * reach, lf.height());
+}
+
 // Rows of costs between which samples are dropped: multiples of a band.
 int rows_at_once(const LightField& lf, const StereoCosts& costs, int band_rows) {
   const double most = static_cast<double>(memory_budget()) / 4;
   int rows = lf.height();
   while (rows > band_rows && looked_at_bytes(lf, costs, rows) > most) rows /= 2;
   return std::max(rows / band_rows, 1) * band_rows;
-}
-
-void fill_volume(const LightField& lf, const StereoCosts& costs, int first_row, int end_row,
-                 VolumeView<float> volume, const Progress& progress) {
-  const int rows = stereo_band_rows(lf.height());
-  parallel_for_workers((end_row - first_row + rows - 1) / rows, progress, [&] {
-    return [&, source = StereoCostRows(lf, costs)](int i) mutable {
-      const int y = first_row + i * rows;
-      const auto band = source.compute(y, std::min(rows, end_row - y), progress);
-      std::copy_n(band.data, band.size(), volume.row(y, 0));
-    };
-  });
 }
 
 std::vector<cuda::MatchShift> device_shifts(const std::vector<AxisShift>& shifts) {
@@ -524,29 +523,35 @@ int stereo_band_rows(int height) {
   return std::clamp(height / 12, 16, 64);
 }
 
-double looked_at_bytes(const LightField& lf, const StereoCosts& costs, int rows) {
-  if (!lf.is_on_disk()) return 0;
-  const GridShape grid = lf.grid();
-  const bool all = costs.matching.views == MatchedViews::All;
-  const double views = all ? grid.count() : grid.v + grid.u - 1;
-  const double steps = std::max(grid.v, grid.u);
-  const double reach = steps * std::max(std::abs(costs.range.min), std::abs(costs.range.max)) + 32;
-  const double view_row = static_cast<double>(lf.byte_size()) / grid.count() / lf.height();
-  return views * view_row * std::min<double>(rows + 2 * reach, lf.height());
+void compute_stereo_costs(const LightField& lf, const StereoCosts& costs,
+                          const TakeStereoCosts& take, const Progress& progress) {
+  const int height = lf.height(), band = stereo_band_rows(height);
+  const int rows = lf.is_on_disk() ? rows_at_once(lf, costs, band) : height;
+  for (int first = 0; first < height; first += rows) {
+    const int end = std::min(first + rows, height);
+    const auto share = [&](int y) { return static_cast<double>(y) / height; };
+    if (costs.matching.views == MatchedViews::All) lf.fetch_samples(first, end);
+    parallel_for_workers((end - first + band - 1) / band, progress.part(share(first), share(end)),
+                         [&] {
+                           return [&, source = StereoCostRows(lf, costs)](int i) mutable {
+                             const int y = first + i * band;
+                             take(y, source.compute(y, std::min(band, end - y), progress));
+                           };
+                         });
+    if (rows < height) lf.forget_samples();
+  }
 }
 
 Volume<float> stereo_volume(const LightField& lf, const StereoCosts& costs,
                             const Progress& progress) {
-  const int height = lf.height();
-  Volume<float> volume(height, static_cast<int>(costs.labels.size()), lf.width());
-  const int rows = lf.is_on_disk() ? rows_at_once(lf, costs, stereo_band_rows(height)) : height;
-  for (int y = 0; y < height; y += rows) {
-    const int end = std::min(y + rows, height);
-    if (costs.matching.views == MatchedViews::All) lf.fetch_samples(y, end);
-    fill_volume(lf, costs, y, end, volume.view(),
-                progress.part(static_cast<double>(y) / height, static_cast<double>(end) / height));
-    if (rows < height) lf.forget_samples();
-  }
+  Volume<float> volume(lf.height(), static_cast<int>(costs.labels.size()), lf.width());
+  const VolumeView<float> rows = volume.view();
+  compute_stereo_costs(
+      lf, costs,
+      [&](int y, VolumeView<const float> band) {
+        std::copy_n(band.data, band.size(), rows.row(y, 0));
+      },
+      progress);
   return volume;
 }
 

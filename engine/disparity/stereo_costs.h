@@ -10,6 +10,7 @@
 #include "engine/disparity/global_labeling.h"
 #include "engine/disparity/matching_cost.h"
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -169,13 +170,15 @@ class StereoCostRows {
 /// for the aggregation, few enough to keep every thread busy.
 [[nodiscard]] int stereo_band_rows(int height);
 
-/// Bytes of the samples that so many rows of costs look at, if these are on disk; else 0.
-[[nodiscard]] double looked_at_bytes(const LightField& light_field, const StereoCosts& costs,
-                                     int rows);
+/// Takes the costs of some rows, from `first_row` on.
+using TakeStereoCosts = std::function<void(int first_row, VolumeView<const float> costs)>;
 
-/// The costs of all rows, on the CPU: height · width · labels · 4 bytes. Samples on disk are
-/// dropped from memory on the way, so that they take no more than a quarter of the memory budget if
-/// a few rows do not. Throws Cancelled.
+/// Computes the costs of all rows on the CPU; several threads call `take`, for other rows each.
+/// Samples on disk are dropped from memory on the way, so that they take no more than a quarter of
+/// the memory budget if a few rows do not. Throws Cancelled.
+void compute_stereo_costs(const LightField& light_field, const StereoCosts& costs,
+                          const TakeStereoCosts& take, const Progress& progress);
+/// All of them: height · width · labels · 4 bytes.
 [[nodiscard]] Volume<float> stereo_volume(const LightField& light_field, const StereoCosts& costs,
                                           const Progress& progress);
 
