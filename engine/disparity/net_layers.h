@@ -6,8 +6,8 @@
 #include "engine/core/memory.h"
 #include "engine/core/progress.h"
 #include "engine/cuda/net.h"
-#include "engine/disparity/kernels/shared_constants.h"
 #include "engine/disparity/kernels/net_kernel.h"
+#include "engine/disparity/kernels/shared_constants.h"
 #include "engine/disparity/net_weights.h"
 
 #include <array>
