@@ -67,6 +67,7 @@ constexpr const char* kReadme =
 
 constexpr double kMiddleDepth = 850;
 
+// The sum of twelve uniform numbers, because std::normal_distribution differs between libraries.
 double normal(std::mt19937& random) {
   double sum = -6;
   for (int i = 0; i < 12; ++i) sum += random() * 0x1p-32;
@@ -359,14 +360,8 @@ std::vector<PointPair> demo_picks(const DemoRig& rig, const TriangleMesh& mesh,
 Image<std::uint8_t> exposed(const Image<float>& light, const Exposure& exposure) {
   Image<std::uint8_t> samples(light.height(), light.width(), light.channels());
   std::mt19937 random(exposure.seed);
-  // The sum of twelve uniform numbers, because std::normal_distribution differs between libraries.
-  const auto normal = [&random] {
-    double sum = -6;
-    for (int i = 0; i < 12; ++i) sum += random() * 0x1p-32;
-    return sum;
-  };
   for (std::size_t i = 0; i < light.size(); ++i) {
-    const double value = light.data()[i] * exposure.gain + exposure.noise * normal();
+    const double value = light.data()[i] * exposure.gain + exposure.noise * normal(random);
     samples.data()[i] = static_cast<std::uint8_t>(std::clamp(std::lround(value), 0L, 255L));
   }
   return samples;

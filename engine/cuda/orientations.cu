@@ -4,7 +4,6 @@
 #include "engine/cuda/device.cuh"
 #include "engine/cuda/device_data.cuh"
 #include "engine/cuda/host_pages.h"
-#include "engine/cuda/orientations.cuh"
 #include "engine/cuda/tensor.cuh"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/cuda/simplex_batch.cuh"
 
 #include "engine/cuda/device.cuh"
 #include "engine/cuda/simplex_moves.cuh"

@@ -31,24 +31,10 @@ namespace {
 
 constexpr int kMaxThreads = 1024;
 
-// Maps of whole views or of rows from `first_row` on.
-template <class T>
-void clear_invalid_of(const LightField& light_field, ViewStack<T>& maps, int first_row = 0) {
-  if (light_field.valid().empty() || maps.empty()) return;
-  for (int i = 0; i < maps.grid().count(); ++i) {
-    const ViewIndex view = maps.grid().view_at(i, maps.first());
-    const std::uint8_t* const valid = light_field.valid().view(view).row(first_row);
-    T* const map = maps.view(view).data;
-    for (std::size_t n = 0; n < maps.view_size(); ++n) {
-      if (valid[n] == 0) map[n] = 0;
-    }
-  }
-}
-
 void mark(const LightField& light_field, DisparityField& field, int first_row = 0) {
   if (light_field.valid().empty() || field.empty()) return;
   field.require_mask();
-  clear_invalid_of(light_field, field.valid, first_row);
+  clear_invalid(light_field, field.valid, first_row);
 }
 
 // For a parameter `range` that asked to find it, for a range found that may be too narrow, and for
@@ -303,27 +289,35 @@ Schema<RunOptions> run_schema() {
   return schema;
 }
 
-void clear_invalid(const LightField& light_field, ViewStack<float>& maps, int first_row) {
-  clear_invalid_of(light_field, maps, first_row);
+template <class T>
+void clear_invalid(const LightField& light_field, ViewStack<T>& maps, int first_row) {
+  if (light_field.valid().empty() || maps.empty()) return;
+  for (int i = 0; i < maps.grid().count(); ++i) {
+    const ViewIndex view = maps.grid().view_at(i, maps.first());
+    const std::uint8_t* const valid = light_field.valid().view(view).row(first_row);
+    T* const map = maps.view(view).data;
+    for (std::size_t n = 0; n < maps.view_size(); ++n) {
+      if (valid[n] == 0) map[n] = 0;
+    }
+  }
 }
 
-void clear_invalid(const LightField& light_field, ViewStack<std::uint8_t>& maps, int first_row) {
-  clear_invalid_of(light_field, maps, first_row);
-}
+template void clear_invalid(const LightField&, ViewStack<float>&, int);
+template void clear_invalid(const LightField&, ViewStack<std::uint8_t>&, int);
 
 void mark_invalid(const LightField& light_field, Estimate& estimate) {
   mark(light_field, estimate.field);
   mark(light_field, estimate.layered.foreground);
   mark(light_field, estimate.layered.background);
   mark(light_field, estimate.second);
-  clear_invalid_of(light_field, estimate.layered.layers);
-  clear_invalid_of(light_field, estimate.confidence);
+  clear_invalid(light_field, estimate.layered.layers);
+  clear_invalid(light_field, estimate.confidence);
 }
 
 void mark_invalid(const LightField& light_field, int first_row, BlockMaps& block) {
   mark(light_field, block.field, first_row);
   mark(light_field, block.second, first_row);
-  clear_invalid_of(light_field, block.confidence, first_row);
+  clear_invalid(light_field, block.confidence, first_row);
 }
 
 std::size_t count_valid(const LightField& light_field, ViewIndex view) {

@@ -5,7 +5,7 @@
 #include "engine/core/light_field.h"
 #include "engine/core/memory.h"
 #include "engine/core/progress.h"
-#include "engine/cuda/net.h"
+#include "engine/cuda/net_task.h"
 #include "engine/disparity/kernels/net_kernel.h"
 #include "engine/disparity/kernels/shared_constants.h"
 #include "engine/disparity/net_weights.h"

@@ -266,6 +266,7 @@ struct StructureTensor::State {
   void allocate();
   void use_slot(float* slot);
   void run_shears(const TensorTask& task, int count);
+  void gather(ViewIndex view, PixelIndex begin, int end, int row, long lane, int count, int before);
   void gather_horizontal(const TensorTask& task, int y);
   void gather_vertical(const TensorTask& task);
   void prefetch_pixels(ViewIndex view, int y, int x) const;
@@ -343,21 +344,28 @@ void StructureTensor::State::prefetch_pixels(ViewIndex view, int y, int x) const
   for (int i = 0; i < columns * block.channels; i += kCacheLine) __builtin_prefetch(first + i);
 }
 
+// Columns [begin.x, end) of a row of the view, from `before` on in the `count` lanes that begin at
+// `lane` of the block's row, which continue the first and the last of them.
+void StructureTensor::State::gather(ViewIndex view, PixelIndex begin, int end, int row, long lane,
+                                    int count, int before) {
+  std::array<float*, 3> inside{};
+  for (int c = 0; c < block.channels; ++c) {
+    inside[c] = block.samples + (static_cast<std::size_t>(c) * block.rows + row) * block.pitch +
+                lane + before;
+  }
+  planes.read(view, begin.y, begin.x, end, inside.data());
+  const int width = end - begin.x;
+  for (int c = 0; c < block.channels; ++c) {
+    std::fill(inside[c] - before, inside[c], inside[c][0]);
+    std::fill(inside[c] + width, inside[c] - before + count, inside[c][width - 1]);
+  }
+}
+
 void StructureTensor::State::gather_horizontal(const TensorTask& task, int y) {
   const int x0 = std::max(0, task.begin.x - block.margin);
   const int x1 = std::min(light_field.width(), task.begin.x + task.width + block.margin);
   for (int u = 0; u < block.rows; ++u) {
-    std::array<float*, 3> rows{};
-    std::array<float*, 3> inside{};
-    for (int c = 0; c < block.channels; ++c) {
-      rows[c] = block.samples + (static_cast<std::size_t>(c) * block.rows + u) * block.pitch;
-      inside[c] = rows[c] + block.margin + x0 - task.begin.x;
-    }
-    planes.read({task.camera_line, u}, y, x0, x1, inside.data());
-    for (int c = 0; c < block.channels; ++c) {
-      std::fill(rows[c], inside[c], inside[c][0]);
-      std::fill(inside[c] + (x1 - x0), rows[c] + block.pitch, inside[c][x1 - x0 - 1]);
-    }
+    gather({task.camera_line, u}, {y, x0}, x1, u, 0, block.pitch, block.margin + x0 - task.begin.x);
   }
 }
 
@@ -369,19 +377,8 @@ void StructureTensor::State::gather_vertical(const TensorTask& task) {
   for (int v = 0; v < block.rows; ++v) {
     for (int i = -margin; i < task.height + margin; ++i) {
       const int y = std::clamp(task.begin.y + i, 0, light_field.height() - 1);
-      std::array<float*, 3> lanes{};
-      std::array<float*, 3> inside{};
-      for (int c = 0; c < block.channels; ++c) {
-        lanes[c] = block.samples + (static_cast<std::size_t>(c) * block.rows + v) * block.pitch +
-                   static_cast<std::ptrdiff_t>(margin + i) * columns;
-        inside[c] = lanes[c] + (x0 - left);
-      }
       prefetch_pixels({v, task.camera_line}, y, x0);
-      planes.read({v, task.camera_line}, y, x0, x1, inside.data());
-      for (int c = 0; c < block.channels; ++c) {
-        std::fill(lanes[c], inside[c], inside[c][0]);
-        std::fill(inside[c] + (x1 - x0), lanes[c] + columns, inside[c][x1 - x0 - 1]);
-      }
+      gather({v, task.camera_line}, {y, x0}, x1, v, (margin + i) * columns, columns, x0 - left);
     }
   }
 }

@@ -201,17 +201,6 @@ ScoreMatrix percentages(const std::vector<BenchmarkResult>& results, const std::
   return matrix;
 }
 
-double mean_seconds(const std::vector<BenchmarkResult>& results, const std::string& entry) {
-  double sum = 0;
-  int count = 0;
-  for (const BenchmarkResult& result : results) {
-    if (result.entry != entry) continue;
-    sum += result.seconds;
-    ++count;
-  }
-  return count > 0 ? sum / count : 0;
-}
-
 TitledTable overview(const std::vector<BenchmarkResult>& results) {
   TitledTable titled{"Labels ranked by average accuracy, % of all views",
                      "Averages are over the scenes that every entry has; seconds are the mean over "
@@ -231,7 +220,7 @@ TitledTable overview(const std::vector<BenchmarkResult>& results) {
     const int rank = rankings[0].ranks[entry];
     std::vector<std::string> cells{first.entries[entry], rank > 0 ? std::to_string(rank) : "–"};
     for (const Ranking& ranking : rankings) cells.push_back(score_text(ranking.averages[entry]));
-    cells.push_back(fixed_text(mean_seconds(results, first.entries[entry]), 2));
+    cells.push_back(fixed_text(speed_of(results, first.entries[entry]).mean(), 2));
     titled.table.rows.push_back(std::move(cells));
   }
   return titled;

@@ -5,7 +5,6 @@
 #include "engine/core/parallel.h"
 #include "engine/cuda/device.h"
 #include "engine/labeling/correct_views.h"
-#include "engine/labeling/edge_probability.h"
 #include "engine/labeling/pixel_features.h"
 #include "engine/labeling/predict_from_strokes.h"
 #include "engine/labeling/ray_labeling.h"

@@ -3,7 +3,6 @@
 
 #include "engine/core/numbers.h"
 #include "engine/core/parallel.h"
-#include "engine/labeling/edge_probability.h"
 #include "engine/labeling/feature_kernel.h"
 #include "engine/labeling/forest_kernel.h"
 #include "engine/labeling/pixel_features.h"

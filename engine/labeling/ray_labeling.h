@@ -160,7 +160,7 @@ struct RayLabelingInput {
   /// Without coupling they speed up the solution: a view starts from the result of its neighbor.
   const DisparityField* disparity = nullptr;
   /// Probability of an edge in [0, 1] of (at least) those views
-  /// (engine/labeling/edge_probability.h); null or empty = no edges known.
+  /// (engine/labeling/pixel_features.h); null or empty = no edges known.
   const ViewStack<float>* edges = nullptr;
   /// Samples of those views; used only where views are coupled, to tell which rays see the same
   /// point. Null = the disparities are trusted.
