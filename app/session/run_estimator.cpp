@@ -162,7 +162,8 @@ FinishedBlocks run_in_blocks(const LightField& lf, const Estimator& estimator,
   const BlockMemory memory = without(request.memory, even.bytes());
   require_memory(run, memory);  // before what another run left is replaced
   run.provenance.source_hash = hash;
-  const io::DraftShape shape{.maps = run.maps, .has_valid = !lf.valid().empty()};
+  const io::DraftShape shape{
+      .maps = run.maps, .has_valid = !lf.valid().empty(), .has_second = run.has_second};
   io::ResultDraft draft(request.output, shape, identity_of(estimator, run, hash));
   DraftStore store(draft, lf.info().source);
   FinishedBlocks finished{{}, run.maps, remark_on(draft, request.output)};

@@ -8,6 +8,8 @@
 #include "engine/disparity/estimator.h"
 #include "engine/disparity/view_samples.h"
 
+#include <memory>
+#include <string>
 #include <vector>
 
 namespace episcope {
@@ -24,6 +26,14 @@ struct PropagatedMaps {
 [[nodiscard]] PropagatedMaps propagate_to_views(const std::vector<Estimate>& maps,
                                                 ViewRectangle views, const Progress& progress);
 
+/// Puts the map of a single view in its place in maps of some views, whose row 0 is the row
+/// `first_row` of the view. Does nothing if they do not hold the view.
+void put_map(const Estimate& map, int first_row, ViewStack<float>& disparity,
+             ViewStack<float>& confidence);
+
+/// Note of an estimate that was propagated from so many views.
+[[nodiscard]] std::string propagated_note(std::size_t views);
+
 /// Decides to which side the pixels beside jumps belong, in maps of all views. A silhouette that
 /// was propagated from another view is right to a pixel at best.
 ///
@@ -38,6 +48,27 @@ struct PropagatedMaps {
 void choose_propagated_sides(const PackedViews& views, float cap, Estimate& estimate,
                              const Progress& progress);
 
+/// Rows of all views, of whole views of `height` rows: samples and the maps before the call, row 0
+/// of both being `first_row`.
+struct PropagatedRows {
+  const PackedViews& views;
+  const ViewStack<float>& before;
+  int first_row = 0;
+  int height = 0;
+};
+/// Chooses sides in a part of the rows, in place: row 0 of `disparity` is the row `begin` of the
+/// views. `rows` must reach `propagated_reach` beyond them, or to the end of the views. Throws
+/// Cancelled.
+void choose_propagated_sides(const PropagatedRows& rows, float cap, int begin,
+                             ViewStack<float>& disparity, const Progress& progress);
+
+/// Number of rows looked at beyond the chosen ones if no disparity exceeds `farthest` px in size.
+[[nodiscard]] int propagated_reach(GridShape grid, double farthest);
+
+/// A cap for a light field: what the noise of a view explains, and a little more. Throws Cancelled.
+[[nodiscard]] float propagated_cap(const LightField& light_field, ViewIndex view,
+                                   const Progress& progress);
+
 /// A method that estimates single views. All others are carried from few of them: the first one
 /// and, with `has_corners`, the corners of the grid (carried_run). Refers to its light field.
 class CarriedMethod {
@@ -47,6 +78,7 @@ class CarriedMethod {
   CarriedMethod& operator=(const CarriedMethod&) = delete;
 
   [[nodiscard]] virtual ViewIndex first_view() const = 0;
+  [[nodiscard]] virtual Interval range() const = 0;
   [[nodiscard]] virtual const LightField& compared() const = 0;
 
   /// The map of the first view, with confidence, range and notes. Throws DeviceFailure, Cancelled.
@@ -56,10 +88,17 @@ class CarriedMethod {
   [[nodiscard]] virtual Estimate estimate_next(ViewIndex view, const std::vector<Estimate>& maps,
                                                const Progress& progress) = 0;
 
+  /// What the estimate of the first view has found that all others need; and the state that it
+  /// left, in another program. Throws Cancelled.
+  [[nodiscard]] virtual std::vector<double> facts() const { return {}; }
+  virtual void restore(const std::vector<double>& /*facts*/, const Progress& /*progress*/) {}
+
   /// Whether the corners of the grid are estimated, too, before all other views are carried.
   [[nodiscard]] virtual bool has_corners() const { return true; }
   /// Share of another view in the work of the first.
   [[nodiscard]] virtual double share_of_next() const { return 1; }
+  /// Bytes that the estimate of a view takes beside large arrays (memory.h).
+  [[nodiscard]] virtual double bytes_of_view() const = 0;
 
  protected:
   CarriedMethod() = default;
@@ -72,5 +111,15 @@ class CarriedMethod {
 /// DeviceFailure, Cancelled.
 [[nodiscard]] Estimate run_carried(CarriedMethod& method, ViewSelection views,
                                    const Progress& progress);
+
+/// The same in blocks. Views are estimated one after the other, each of which is kept when it is
+/// done; then all others are carried, view by view; then sides are chosen in bands of rows of all
+/// views. Of a view at once it needs what its estimate needs, of which large arrays go to disk
+/// beyond the memory budget. Bands need maps and samples of all views as far beyond them as
+/// disparities reach; rows above that the pass has replaced are still in memory, or, in a program
+/// that continues, carried again. Takes no result early.
+[[nodiscard]] BlockwiseRun carried_in_blocks(const LightField& light_field,
+                                             std::unique_ptr<CarriedMethod> method,
+                                             ViewSelection views, int threads);
 
 }  // namespace episcope

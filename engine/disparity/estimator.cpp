@@ -141,7 +141,8 @@ BlockPass forgetting(const EvenLightFieldPtr& seen, BlockPass pass) {
 constexpr int kFewestRows = 8;
 
 int most_at_once(const BlockPass& pass, const MapGeometry& maps) {
-  return pass.unit == BlockUnit::Rows ? maps.height : maps.grid.u;
+  const int views = pass.only.empty() ? maps.grid.u : 1;
+  return pass.unit == BlockUnit::Rows ? maps.height : views;
 }
 
 int fewest_at_once(const BlockPass& pass, const MapGeometry& maps) {
@@ -169,10 +170,11 @@ class BlockRunner {
   [[nodiscard]] Provenance provenance() const {
     Provenance made = run_.provenance;
     made.seconds = state_.seconds;
+    std::vector<std::string> notes = state_.notes;
     if (run_.notes) {
-      const std::vector<std::string> notes = run_.notes(state_);
-      made.notes.insert(made.notes.begin(), notes.begin(), notes.end());
+      for (std::string& note : run_.notes(state_)) notes.push_back(std::move(note));
     }
+    made.notes.insert(made.notes.begin(), notes.begin(), notes.end());
     return made;
   }
 
@@ -181,7 +183,8 @@ class BlockRunner {
     return state_.pass + 1 == static_cast<int>(run_.passes.size());
   }
   [[nodiscard]] int count_of(const BlockPass& pass) const {
-    return pass.unit == BlockUnit::Rows ? run_.maps.height : run_.maps.grid.count();
+    if (pass.unit == BlockUnit::Rows) return run_.maps.height;
+    return pass.only.empty() ? run_.maps.grid.count() : static_cast<int>(pass.only.size());
   }
 
   // How many rows or views at once.
@@ -201,6 +204,7 @@ class BlockRunner {
     if (pass.unit == BlockUnit::Rows) {
       return {{maps.first, maps.grid}, state_.done, std::min(state_.done + size, maps.height)};
     }
+    if (!pass.only.empty()) return {{pass.only[state_.done], {1, 1}}, 0, maps.height};
     const ViewIndex view = maps.grid.view_at(state_.done, maps.first);
     const int left = maps.first.u + maps.grid.u - view.u;
     return {{view, {1, std::min(size, left)}}, 0, maps.height};
@@ -252,6 +256,8 @@ class BlockRunner {
     light_field_.forget_samples();
     state_.done = done;
     state_.finding = std::max(state_.finding, made.finding);
+    if (!made.facts.empty()) state_.facts = std::move(made.facts);
+    state_.notes.insert(state_.notes.end(), made.notes.begin(), made.notes.end());
     state_.seconds = seconds();
     store_.write(block, made.maps, state_, state_.pass > 0);
   }

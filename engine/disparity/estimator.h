@@ -58,7 +58,9 @@ enum class BlockUnit { Rows, Views };
 /// Result of a block.
 struct FinishedBlock {
   BlockMaps maps;
-  double finding = 0;  ///< Value whose maximum over all blocks is reported.
+  double finding = 0;                ///< Value whose maximum over all blocks is reported.
+  std::vector<double> facts{};       ///< Passed on to all further blocks; empty = nothing new.
+  std::vector<std::string> notes{};  ///< For the estimate.
 };
 
 /// One pass over all maps. What it makes of a block depends on samples, on the facts, and on the
@@ -66,6 +68,8 @@ struct FinishedBlock {
 struct BlockPass {
   std::string step;  ///< For Progress.
   BlockUnit unit = BlockUnit::Rows;
+  /// Of BlockUnit::Views: only these, one after the other. Empty = all.
+  std::vector<ViewIndex> only{};
   /// Bytes of memory that a block of so many rows or views takes, samples that have to be looked at
   /// included if they are on disk.
   std::function<double(int count)> bytes;
@@ -84,7 +88,8 @@ struct BlockPass {
 /// Refers to its light field.
 struct BlockwiseRun {
   MapGeometry maps;
-  Provenance provenance;  ///< With the range; the notes are completed by `notes`.
+  bool has_second = false;  ///< Whether blocks have BlockMaps::second.
+  Provenance provenance;    ///< With the range; the notes are completed by `notes`.
   std::vector<BlockPass> passes;
   /// Of the largest finding of the last pass and the facts at the end; may be empty.
   std::function<std::vector<std::string>(const BlockProgress& end)> notes;

@@ -138,6 +138,7 @@ class NetMethod final : public CarriedMethod {
   [[nodiscard]] ViewIndex first_view() const override {
     return parameters_.view.value_or(lf_.center());
   }
+  [[nodiscard]] Interval range() const override { return range_; }
   [[nodiscard]] const LightField& compared() const override { return lf_; }
 
   [[nodiscard]] Estimate estimate_first(const Progress& progress) override {
@@ -167,6 +168,17 @@ class NetMethod final : public CarriedMethod {
                                              kRoundWork * parameters_.rounds + kRefinementWork);
   }
 
+  // Maps, and the rows of views that evidence is taken from; tensors are large arrays.
+  [[nodiscard]] double bytes_of_view() const override {
+    constexpr double kOfPixel = 160, kOfSample = 32;
+    constexpr int kRowsAround = 2 * kNetBand;
+    const GridShape grid = lf_.grid();
+    const double farthest = std::max(std::abs(range_.min), std::abs(range_.max)) + 1;
+    const double rows = std::min(kRowsAround + farthest * std::max(grid.v, 1), 1.0 * lf_.height());
+    const double views = std::min(grid.count(), kNetSectors * kNetSectorViews + 1);
+    return lf_.width() * (kOfPixel * lf_.height() + kOfSample * rows * views);
+  }
+
  private:
   [[nodiscard]] NetParameters view_parameters() const {
     return {range_, parameters_.silhouettes, parameters_.rounds, places_};
@@ -192,6 +204,15 @@ class NetMethod final : public CarriedMethod {
   NetPlaces places_;
   std::vector<std::string> place_notes_;
 };
+
+BlockwiseRun net_in_blocks(const LightField& lf, const NetMethodParameters& parameters,
+                           ViewSelection views, const Progress& progress) {
+  BlockwiseRun run =
+      carried_in_blocks(lf, std::make_unique<NetMethod>(lf, parameters, Device::Cpu, progress),
+                        views, progress.threads());
+  run.has_second = run.maps.grid.count() == 1;
+  return run;
+}
 
 Schema<NetMethodParameters> net_schema() {
   using P = NetMethodParameters;
@@ -241,7 +262,7 @@ Estimator net_estimator() {
        .devices = {Device::Cpu, Device::Cuda},
        .weights = kNetWeights,
        .main_parameters = {"range", "rounds", "silhouettes"}},
-      net_schema(), estimate_by_net);
+      net_schema(), estimate_by_net, net_in_blocks);
 }
 
 }  // namespace episcope

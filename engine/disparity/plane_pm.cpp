@@ -259,8 +259,28 @@ class EqualizedViews {
   // About what was evened, for the notes of an estimate; may be empty.
   [[nodiscard]] const std::string& note() const { return note_; }
 
+  // What was evened, in numbers of which there is one at least, and the same light field again,
+  // without a data term.
+  [[nodiscard]] std::vector<double> evened() const {
+    std::vector<double> numbers{correction_.fall_off};
+    for (const auto& gain : correction_.gains)
+      numbers.insert(numbers.end(), gain.begin(), gain.end());
+    return numbers;
+  }
+
+  void restore(const std::vector<double>& evened, const Progress& progress) {
+    PhotometricCorrection correction;
+    correction.fall_off = evened.front();
+    for (std::size_t i = 1; i + 2 < evened.size(); i += 3) {
+      correction.gains.push_back({evened[i], evened[i + 1], evened[i + 2]});
+    }
+    stereo_ = {};
+    use(correction, progress);
+  }
+
  private:
   void use(const PhotometricCorrection& correction, const Progress& progress) {
+    correction_ = correction;
     even_.reset();
     if (correction.is_uneven()) even_.emplace(corrected(lf_, correction, progress));
   }
@@ -274,6 +294,7 @@ class EqualizedViews {
   const LightField& lf_;
   const PlaneParameters& parameters_;
   Device device_;
+  PhotometricCorrection correction_;
   std::optional<LightField> even_;
   StereoCosts stereo_;
   std::string note_;
@@ -371,11 +392,13 @@ class PlaneMethod final : public CarriedMethod {
         device_(device),
         data_(light_field, parameters_, device) {
     data_.begin(progress);
+    range_ = data_.stereo().range;
   }
 
   [[nodiscard]] ViewIndex first_view() const override {
     return parameters_.matching.view.value_or(lf_.center());
   }
+  [[nodiscard]] Interval range() const override { return range_; }
   [[nodiscard]] const LightField& compared() const override { return data_.light_field(); }
 
   [[nodiscard]] Estimate estimate_first(const Progress& progress) override {
@@ -388,12 +411,30 @@ class PlaneMethod final : public CarriedMethod {
     return estimate_next_view(compared(), parameters_, device_, view, maps, progress);
   }
 
+  [[nodiscard]] std::vector<double> facts() const override { return data_.evened(); }
+  void restore(const std::vector<double>& facts, const Progress& progress) override {
+    data_.restore(facts, progress);
+  }
+
+  // As measured, with what the allocator keeps.
+  [[nodiscard]] double bytes_of_view() const override {
+    constexpr double kBesideCosts = 160;
+    return kBesideCosts * lf_.height() * lf_.width();
+  }
+
  private:
   const LightField& lf_;
   PlaneParameters parameters_;
   Device device_;
   EqualizedViews data_;
+  Interval range_;
 };
+
+BlockwiseRun planes_in_blocks(const LightField& lf, const PlaneParameters& parameters,
+                              ViewSelection views, const Progress& progress) {
+  return carried_in_blocks(lf, std::make_unique<PlaneMethod>(lf, parameters, Device::Cpu, progress),
+                           views, progress.threads());
+}
 
 Schema<PlaneParameters> plane_pm_schema() {
   using P = PlaneParameters;
@@ -465,7 +506,7 @@ Estimator plane_pm_estimator() {
        .devices = {Device::Cpu, Device::Cuda},
        .sees_even_views = false,  // evens them itself, and again as it learns more
        .main_parameters = {"range", "labels", "smoothness"}},
-      plane_pm_schema(), estimate_planes);
+      plane_pm_schema(), estimate_planes, planes_in_blocks);
 }
 
 }  // namespace episcope

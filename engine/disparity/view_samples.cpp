@@ -82,13 +82,15 @@ void mark_invalid(const std::uint8_t* valid, int width, std::uint32_t* out) {
   }
 }
 
-void pack_view(const LightField& lf, ViewIndex view, PackedViews& packed) {
+// From the row `first_row` on, as many as `packed` has.
+void pack_view(const LightField& lf, ViewIndex view, int first_row, PackedViews& packed) {
   const ImageView<std::uint32_t> out = packed.pixels.view(view);
   std::vector<float> row(static_cast<std::size_t>(lf.width()) * lf.channels());
-  for (int y = 0; y < out.height; ++y) {
+  for (int i = 0; i < out.height; ++i) {
+    const int y = first_row + i;
     lf.read_row(view, y, 0, lf.width(), row.data());
-    pack_row(row.data(), lf.width(), lf.channels(), out.row(y));
-    if (packed.has_invalid) mark_invalid(lf.valid().view(view).row(y), lf.width(), out.row(y));
+    pack_row(row.data(), lf.width(), lf.channels(), out.row(i));
+    if (packed.has_invalid) mark_invalid(lf.valid().view(view).row(y), lf.width(), out.row(i));
   }
 }
 
@@ -230,10 +232,14 @@ Image<float> variance_of(const ViewChannels& planes, const Progress& progress) {
 }  // namespace
 
 PackedViews pack_views(const LightField& lf, const Progress& progress) {
-  PackedViews packed{ViewStack<std::uint32_t>(lf.grid(), lf.height(), lf.width()),
+  return pack_rows(lf, 0, lf.height(), progress);
+}
+
+PackedViews pack_rows(const LightField& lf, int first_row, int end_row, const Progress& progress) {
+  PackedViews packed{ViewStack<std::uint32_t>(lf.grid(), end_row - first_row, lf.width()),
                      !lf.valid().empty()};
   parallel_for(lf.grid().count(), progress,
-               [&](int i) { pack_view(lf, lf.grid().view_at(i), packed); });
+               [&](int i) { pack_view(lf, lf.grid().view_at(i), first_row, packed); });
   return packed;
 }
 
@@ -249,7 +255,7 @@ PackedViews pack_around(const LightField& lf, const ViewRectangle& views, int re
     const ViewIndex view = packed.pixels.view_at(i);
     const bool is_beside = beyond(view.v, views.first.v, views.grid.v) == 0 ||
                            beyond(view.u, views.first.u, views.grid.u) == 0;
-    if (is_beside) pack_view(lf, view, packed);
+    if (is_beside) pack_view(lf, view, 0, packed);
   });
   return packed;
 }

@@ -50,6 +50,11 @@ struct PackedViews {
 /// Throws Cancelled.
 [[nodiscard]] PackedViews pack_views(const LightField& light_field, const Progress& progress);
 
+/// Rows [first_row, end_row) of all views, which are the rows from 0 on of `pixels`. Throws
+/// Cancelled.
+[[nodiscard]] PackedViews pack_rows(const LightField& light_field, int first_row, int end_row,
+                                    const Progress& progress);
+
 /// The views of a rectangle and up to `reach` views beside each in its row and column; `pixels`
 /// covers the rectangle around all of these, of which other views are black. Throws Cancelled.
 [[nodiscard]] PackedViews pack_around(const LightField& light_field, const ViewRectangle& views,

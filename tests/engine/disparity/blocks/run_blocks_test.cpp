@@ -79,7 +79,10 @@ class StoredField {
 class MemoryStore : public BlockStore {
  public:
   explicit MemoryStore(const BlockwiseRun& run)
-      : field_(run.maps), confidence_(stack_of(run.maps, 0.0F)) {}
+      : has_second_(run.has_second),
+        field_(run.maps),
+        second_(run.maps),
+        confidence_(stack_of(run.maps, 0.0F)) {}
 
   int writes = 1 << 20;
   int blocks = 0;
@@ -95,11 +98,13 @@ class MemoryStore : public BlockStore {
     ++blocks;
     field_.write(block, maps.field);
     copy(maps.confidence, block, 0, confidence_, block.first_row);
+    if (has_second_) second_.write(block, maps.second);
     note(after);
   }
 
   [[nodiscard]] bool equals(const Estimate& estimate) const {
-    return estimate.layered.layers.empty() && estimate.second.empty() &&
+    if (has_second_ != !estimate.second.empty()) return false;
+    return estimate.layered.layers.empty() && (!has_second_ || second_.equals(estimate.second)) &&
            field_.equals(estimate.field) && same_bytes(confidence_, estimate.confidence);
   }
 
@@ -112,7 +117,8 @@ class MemoryStore : public BlockStore {
     return part;
   }
 
-  StoredField field_;
+  bool has_second_;
+  StoredField field_, second_;
   ViewStack<float> confidence_;
   BlockProgress progress_;
 };
@@ -187,6 +193,7 @@ class RunBlocksTest : public QObject {
   void centerOnly_equalsTheRunAtOnce();
   void profileOfThePaper_equalsTheRunAtOnce_data() { add_methods("profile"); }
   void profileOfThePaper_equalsTheRunAtOnce();
+  void viewsCarriedFromOne_equalTheRunAtOnce();
   void invalidPixels_areMarkedAlike_data() { add_methods(); }
   void invalidPixels_areMarkedAlike();
   void singleRowOrColumnOfViews_equalsTheRunAtOnce_data() { add_methods(); }
@@ -202,7 +209,7 @@ class RunBlocksTest : public QObject {
 };
 
 void RunBlocksTest::localMethodsAndMethodsByViews_runInBlocks() {
-  for (const char* id : {"epi_l", "epi_s"}) {
+  for (const char* id : {"epi_l", "epi_s", "plane_pm", "net"}) {
     QVERIFY2(find_estimator(id).can_run_in_blocks(), id);
   }
 }
@@ -227,6 +234,13 @@ void RunBlocksTest::profileOfThePaper_equalsTheRunAtOnce() {
 
   QVERIFY(agrees(*scene.light_field, fetched(), {{"profile", std::string("paper")}},
                  ViewSelection::All, 10));
+}
+
+void RunBlocksTest::viewsCarriedFromOne_equalTheRunAtOnce() {
+  const Scene scene = scene_of({5, 5});
+
+  QVERIFY(agrees(*scene.light_field, find_estimator("net"), {{"corners", false}},
+                 ViewSelection::All, 23));
 }
 
 void RunBlocksTest::invalidPixels_areMarkedAlike() {
