@@ -5,6 +5,7 @@
 #include "app/session/raw_scene.h"
 #include "engine/capture/mesh_file.h"
 #include "engine/capture/plenoptic/decode_files.h"
+#include "engine/capture/plenoptic/processed_container.h"
 #include "engine/core/error.h"
 #include "engine/core/finding.h"
 #include "engine/core/parameter.h"
@@ -123,6 +124,7 @@ Scene load_builtin(const std::string& id, const LoadOptions& options, const Prog
 Scene open_light_field(const std::string& input, const io::OpenOptions& options,
                        const std::filesystem::path& cache_folder, const Progress& progress) {
   if (capture::is_lfp_container(input)) {
+    if (const auto processed = capture::read_processed(input)) return scene_of(*processed);
     Scene scene = capture::decode_files({.raw = input}, {}, progress);
     return options.focus_px == 0 ? std::move(scene) : sheared(scene, options.focus_px, progress);
   }

@@ -563,6 +563,10 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
      "The lenses were found {:.2f} px apart, but according to its pitches of lenses and pixels the "
      "camera has them {:.2f} px apart: check the white picture and the optics.",
      "Lenses are %1 px apart, not %2 px as the camera says."},
+    {"plenoptic.processed",
+     "This container of a Lytro camera holds processed pictures, without what the sensor saw: {}. "
+     "They are no views of a light field; episcope-cli decode writes them as files.",
+     "Processed pictures, no light field: %1", FindingLevel::Note},
     {"option.ignored", "--{} is ignored, because this is {}.", "“%1” is ignored."},
     {"scribbles.unread", "Scribbles were not read: {}"},
     {"render.part",

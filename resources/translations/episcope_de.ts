@@ -2908,6 +2908,10 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Die Ansichten wurden aufgerichtet.</translation>
     </message>
     <message>
+        <source>This container of a Lytro camera holds processed pictures, without what the sensor saw: %1. They are no views of a light field; episcope-cli decode writes them as files.</source>
+        <translation>Dieser Container einer Lytro-Kamera enthält fertige Bilder ohne das, was der Sensor sah: %1. Sie sind keine Ansichten eines Lichtfelds; episcope-cli decode schreibt sie als Dateien.</translation>
+    </message>
+    <message>
         <source>White picture %1</source>
         <translation>Weißbild %1</translation>
     </message>
@@ -8644,6 +8648,10 @@ s</translation>
     <message>
         <source>Pixels from one lenslet of a mosaic to the next; of a fraction, as 15.38, the picture is resampled to lenslets of whole pixels; 0 = detected</source>
         <translation>Pixel von einer Linse eines Mosaiks zur nächsten; bei einem Bruch wie 15.38 wird das Bild auf Linsen ganzer Pixel umgetastet; 0 = erkannt</translation>
+    </message>
+    <message>
+        <source>processed container of a Lytro camera</source>
+        <translation>Container fertiger Bilder einer Lytro-Kamera</translation>
     </message>
     <message>
         <source>depth map</source>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/capture/plenoptic/decode_files.h"
+#include "engine/capture/plenoptic/processed_container.h"
 #include "engine/capture/plenoptic/raw_picture.h"
 #include "tests/fuzz/harness.h"
 
@@ -49,6 +50,9 @@ void write_seeds(const std::filesystem::path& folder) {
 void read(const std::filesystem::path& file) {
   tolerate([&] { (void)capture::read_raw(file); });
   tolerate([&] { (void)capture::read_white(file, small_raw()); });
+  tolerate([&] {
+    if (const auto processed = capture::read_processed(file)) (void)scene_of(*processed);
+  });
   std::ifstream text(file, std::ios::binary);
   const auto samples = pack(small_raw().samples, capture::Packing::Bits10);
   tolerate([&] {

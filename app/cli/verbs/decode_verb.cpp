@@ -4,6 +4,7 @@
 #include "app/cli/output.h"
 #include "app/cli/verbs/verbs.h"
 #include "engine/capture/plenoptic/decode_files.h"
+#include "engine/capture/plenoptic/processed_container.h"
 #include "engine/capture/plenoptic/raw_picture.h"
 #include "engine/core/finding.h"
 #include "engine/core/text.h"
@@ -129,6 +130,47 @@ void check_outputs(const DecodeRequest& request) {
   check_light_field_output(request.output, request.overwrite);
 }
 
+/// Tells which options do nothing for processed pictures.
+void note_ignored(const DecodeRequest& request, Job& job) {
+  const std::pair<const char*, bool> given[] = {
+      {"white", !request.white.empty()},    {"dark", !request.dark.empty()},
+      {"camera", !request.camera.empty()},  {"mosaic", request.mosaic.has_value()},
+      {"views", request.options.views > 0}, {"step", request.options.step_px > 0},
+      {"linear", request.options.is_linear}};
+  for (const auto& [option, is_given] : given) {
+    if (!is_given) continue;
+    job.note(fmt::format(finding_text("option.ignored"), option, "a processed picture"));
+  }
+}
+
+/// Of a container without a raw picture; false for any other file.
+bool write_processed(const DecodeRequest& request, Job& job) {
+  if (!capture::is_lfp_container(request.raw)) return false;
+  const auto container = capture::read_processed(request.raw);
+  if (!container) return false;
+  if (std::filesystem::path(request.output).has_extension()) {
+    throw UsageError(
+        fmt::format("{} holds {}, which are written into a new folder; name one with -o",
+                    request.raw, container->text()));
+  }
+  note_ignored(request, job);
+  const std::vector<std::string> written =
+      capture::write_processed(request.output, *container, job.progress());
+  job.finish();
+  if (!request.is_json) {
+    std::cout << request.output << ": " << container->text() << '\n';
+    for (const std::string& file : written) std::cout << file << '\n';
+    return true;
+  }
+  Json json;
+  json["pictures"] = container->pictures.size();
+  json["maps"] = Json::array();
+  for (const capture::ProcessedMap& map : container->maps) json["maps"].push_back(map.name);
+  json["output"] = request.output;
+  print_answer(std::move(json), job.notes(), written);
+  return true;
+}
+
 }  // namespace
 
 void run_decode(const VerbArguments& arguments, std::stop_token stop) {
@@ -136,6 +178,7 @@ void run_decode(const VerbArguments& arguments, std::stop_token stop) {
   if (!parse(arguments, request)) return;
   Job job(std::move(stop), request.job);
   job.progress().step("reading " + request.raw);
+  if (write_processed(request, job)) return;
   check_outputs(request);
   const capture::FoundPictures found = capture::read_pictures(
       {request.raw, request.white, request.dark, request.camera, request.mosaic});

@@ -55,4 +55,10 @@ execute_process(COMMAND sh -c "z='\\0\\0\\0\\0'; z35=\"$z$z$z$z$z$z$z$z\\0\\0\\0
     section M ${bytes} ${table} table; head -c $(( (16 - ${bytes} % 16) % 16 )) /dev/zero
     section C 16 ${depth} depth; } > a-dm.lfp"
   WORKING_DIRECTORY "${WORK}")
-expect("a processed container" 1 ERR "holds a processed picture" ARGS info a-dm.lfp)
+expect("a processed container is a picture" 0 OUT "1×1.*note.*depthMap of 2×2 px" ARGS info a-dm.lfp)
+expect("it has no light field" 2 ERR "depthMap of 2×2 px.*new folder" ARGS decode a-dm.lfp -o a.h5)
+expect("its files" 0 OUT "depthMap of 2×2 px.*processed/depthMap.pfm" ERR "--views is ignored"
+       ARGS decode a-dm.lfp --views 3 -o processed)
+if(NOT EXISTS "${WORK}/processed/depthMap.pfm")
+  message(FATAL_ERROR "no depth map was written")
+endif()

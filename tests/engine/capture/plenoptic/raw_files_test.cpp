@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/capture/plenoptic/decode_files.h"
+#include "engine/capture/plenoptic/processed_container.h"
 #include "engine/capture/plenoptic/raw_picture.h"
 #include "engine/core/error.h"
 #include "engine/core/finding.h"
@@ -103,13 +104,32 @@ class RawFilesTest : public QObject {
     const fs::path file = write(name, bytes);
     return problem([&] { (void)read_raw(file); });
   }
-  /// A depth map without what the sensor saw.
-  fs::path write_processed_container() {
-    const std::vector<std::uint8_t> depth(24);
-    const std::string table =
-        "{'picture':{'frameArray':[{'frame':{'imageRef':'sha1-0'}}],'depthMap':{'imageRef':'" +
-        lfp_reference(depth) + "'}}}";
-    write_lfp(path("processed.lfp"), {{{true, {}, bytes_of(json_of(table))}, {false, {}, depth}}});
+  /// A depth map of 3×2 px with values 0 to 5, with or without a stack of two pictures.
+  fs::path write_processed_container(bool has_pictures) {
+    LfpContainer container;
+    container.sections.push_back({});
+    const auto add = [&](const std::vector<std::uint8_t>& data) {
+      container.sections.push_back({false, {}, data});
+      return "'imageRef':'" + lfp_reference(data) + "'";
+    };
+    const std::vector<float> depth{0, 1, 2, 3, 4, 5};
+    const auto* bytes = reinterpret_cast<const std::uint8_t*>(depth.data());
+    std::string table =
+        "{'picture':{'frameArray':[{'frame':{'imageRef':'sha1-0'}}],'accelerationArray':[{"
+        "'vendorContent':{'width':3,'height':2,'defaultLambda':-3,'depthMap':{" +
+        add({bytes, bytes + depth.size() * sizeof(float)}) + "},'imageArray':[";
+    const auto add_picture = [&](std::uint8_t value, const std::string& lambda) {
+      io::write_png(path("picture.png"), Image<std::uint8_t>(4, 4, 3, value).view());
+      std::ifstream file(path("picture.png"), std::ios::binary);
+      table += "{'lambda':" + lambda + "," + add({std::istreambuf_iterator<char>(file), {}}) + "}";
+    };
+    if (has_pictures) {
+      add_picture(20, "4");
+      table += ",";
+      add_picture(90, "-2.5");
+    }
+    container.sections.front() = {true, {}, bytes_of(json_of(table + "]}}]}}"))};
+    write_lfp(path("processed.lfp"), container);
     return path("processed.lfp");
   }
   /// MOD_nnnn.RAW and .TXT, each with a zoom.
@@ -260,8 +280,38 @@ class RawFilesTest : public QObject {
   }
 
   void processedContainer_isNamedAsSuch() {
-    const QString told = problem([&] { (void)read_raw(write_processed_container()); });
+    const QString told = problem([&] { (void)read_raw(write_processed_container(true)); });
     QVERIFY2(told.contains("holds a processed picture"), qPrintable(told));
+    good_container();
+    QVERIFY(!read_processed(path("good.lfr")));
+    LfpContainer empty;
+    empty.sections.push_back({true, {}, bytes_of(json_of("{'frames':[{'frame':{}}]}"))});
+    write_lfp(path("empty-stk.lfp"), empty);
+    QVERIFY(
+        problem([&] { (void)read_processed(path("empty-stk.lfp")); }).contains("holds neither"));
+  }
+
+  void processedPictures_areShownAndWritten() {
+    const auto container = read_processed(write_processed_container(true));
+    QVERIFY(container.has_value());
+    QCOMPARE(container->text(), std::string("2 pictures in focus at λ -2.5 … 4, depthMap of 3×2 px "
+                                            "from 0 to 5"));
+    const Scene scene = scene_of(*container);
+    QCOMPARE(scene.light_field->grid(), (GridShape{1, 1}));
+    QCOMPARE(int(*scene.light_field->view<std::uint8_t>({0, 0}).row(0)), 90);  // of λ -2.5
+    QVERIFY(is_note(scene.convention.warnings.front()));
+    write_processed(path("out"), *container, Progress(1));
+    QVERIFY(fs::exists(path("out/picture_00_lambda_-2.5.png")));
+    QVERIFY(fs::exists(path("out/picture_01_lambda_4.png")));
+    QCOMPARE(io::read_pfm(path("out/depthMap.pfm")).at(1, 2), 5.0F);
+  }
+
+  void depthMap_alone_isShownAsGray() {
+    const auto container = read_processed(write_processed_container(false));
+    const LightFieldPtr field = scene_of(*container).light_field;
+    QCOMPARE(field->width(), 3);
+    QCOMPARE(field->view<float>({0, 0}).at(0, 0), 0.0F);
+    QCOMPARE(field->view<float>({0, 0}).at(1, 2), 1.0F);
   }
 
   void bareRaw_needsItsJson() {
