@@ -101,6 +101,13 @@ void start_from_data(const TvL2Level& level) {
   open_edges(level);
 }
 
+// Between Galerkin's coarse edges (1, always stable) and those right for smooth corrections (½),
+// and ADMM's over-relaxation. Should the gap grow, the safe values take their place.
+struct Pace {
+  float coarse_edge = 0.75F;
+  float relaxation = 1.7F;
+};
+
 constexpr Pace kSafePace = {kTvL2SafePace, kTvL2SafePace};
 
 template <class T>
@@ -359,13 +366,6 @@ void prolong(const TvL2Level& coarse, const TvL2Level& fine) {
   }
   open_edges(fine);
 }
-
-// Between Galerkin's coarse edges (1, always stable) and those right for smooth corrections (½),
-// and ADMM's over-relaxation. Should the gap grow, the safe values take their place.
-struct Pace {
-  float coarse_edge = 0.75F;
-  float relaxation = 1.7F;
-};
 
 struct TvL2Solver::State {
   const TvL2Kernel& kernel;
