@@ -2,8 +2,8 @@
 #include "app/session/command_line.h"
 
 #include "engine/core/error.h"
+#include "engine/disparity/net_weights.h"
 #include "engine/disparity/registry.h"
-#include "engine/disparity/weights_file.h"
 #include "engine/io/base/json.h"
 #include "engine/io/models/open_options.h"
 

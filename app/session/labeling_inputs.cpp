@@ -7,7 +7,7 @@
 #include "engine/disparity/registry.h"
 #include "engine/io/base/files.h"
 #include "engine/io/formats/archive_companions.h"
-#include "engine/labeling/edge_probability.h"
+#include "engine/labeling/pixel_features.h"
 
 #include <set>
 #include <utility>

@@ -4,7 +4,7 @@
 #include "annotation/exchange.h"
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
-#include "engine/labeling/painted_views.h"
+#include "engine/labeling/correct_views.h"
 
 #include <algorithm>
 #include <utility>

@@ -86,7 +86,7 @@ LabelerParameters possible_parameters(const LabelingInput& input) {
   LabelerParameters parameters = input.parameters;
   if (input.disparity) return parameters;
   parameters.features = FeatureSet::Image;
-  if (info_of(parameters.regularizer).joins_views) parameters.regularizer = Regularizer::View;
+  if (joins_views(parameters.regularizer)) parameters.regularizer = Regularizer::View;
   return parameters;
 }
 

@@ -229,41 +229,6 @@ void remove_trends(std::vector<ViewCorrection>& corrections, GridShape grid) {
   }
 }
 
-}  // namespace
-
-double Alignment::roll_degrees() const {
-  return std::atan2(rotation[3], rotation[0]) * 180 / std::numbers::pi;
-}
-
-Alignment align(const ViewMatches& matches, const LensCamera& camera) {
-  Model model(matches, camera);
-  const ViewIndex middle = matches.grid.center();
-  const auto center = static_cast<std::size_t>(middle.v) * matches.grid.u + middle.u;
-  Eigen::Vector3d vector = Eigen::Vector3d::Zero();
-  for (int round = 0; round < kAlignmentRounds; ++round) {
-    vector += rotation_step(model, vector);
-    model.weigh(model.residuals(rotation_of(vector)));
-  }
-  const Matrix3 rotation = rotation_of(vector);
-  std::vector<double> sizes = Model::sizes_of(model.residuals(rotation));
-  Alignment alignment;
-  alignment.residual_px = median(sizes);
-  if (!(alignment.residual_px < kWorstFit)) {
-    throw InvalidInput("the photographs do not lie on a grid: points are " +
-                       std::to_string(alignment.residual_px) +
-                       " px off; check the order of the files, and that the camera fits them");
-  }
-  Eigen::Map<Matrix3>(alignment.rotation.data()) = rotation;
-  alignment.focal_px = model.focal();
-  alignment.parallax = model.parallax();
-  alignment.corrections = corrections_of(model, rotation, matches.found.size());
-  alignment.corrections[center] = {};
-  remove_trends(alignment.corrections, matches.grid);
-  return alignment;
-}
-
-namespace {
-
 constexpr int kMostPoints = 900;
 constexpr std::size_t kLeastPoints = 30;
 constexpr int kSearchRows = 8;  // by which rows of neighbors may differ
@@ -430,43 +395,6 @@ class Matcher {
   ViewMatches matches_;
 };
 
-}  // namespace
-
-ViewMatches match_views(const LightField& field, const Progress& progress) {
-  return Matcher(field, progress).run();
-}
-
-std::vector<double> vertical_disparities(const ViewMatches& matches) {
-  std::vector<double> differences;
-  for (int v = 0; v < matches.grid.v; ++v) {
-    for (int u = 0; u + 1 < matches.grid.u; ++u) {
-      const auto& left = matches.of({v, u});
-      const auto& right = matches.of({v, u + 1});
-      for (std::size_t i = 0; i < left.size(); ++i) {
-        if (!left[i] || !right[i]) continue;
-        differences.push_back(std::abs(left[i]->place.y - right[i]->place.y));
-      }
-    }
-  }
-  std::ranges::sort(differences);
-  return differences;
-}
-
-std::vector<double> view_gains(const ViewMatches& matches) {
-  std::vector<double> gains;
-  for (const auto& view : matches.found) {
-    std::vector<double> of_view;
-    for (const auto& match : view) {
-      if (match) of_view.push_back(match->gain);
-    }
-    std::ranges::sort(of_view);
-    gains.push_back(of_view.empty() ? 1 : of_view[of_view.size() / 2]);
-  }
-  return gains;
-}
-
-namespace {
-
 constexpr int kMostSteps = 15;
 constexpr double kConverged = 2e-3;   // px
 constexpr double kFarthest = 2;       // px from the guess
@@ -510,6 +438,70 @@ bool sample(ImageView<const float> picture, const PlanePoint& at,
 }
 
 }  // namespace
+
+double Alignment::roll_degrees() const {
+  return std::atan2(rotation[3], rotation[0]) * 180 / std::numbers::pi;
+}
+
+Alignment align(const ViewMatches& matches, const LensCamera& camera) {
+  Model model(matches, camera);
+  const ViewIndex middle = matches.grid.center();
+  const auto center = static_cast<std::size_t>(middle.v) * matches.grid.u + middle.u;
+  Eigen::Vector3d vector = Eigen::Vector3d::Zero();
+  for (int round = 0; round < kAlignmentRounds; ++round) {
+    vector += rotation_step(model, vector);
+    model.weigh(model.residuals(rotation_of(vector)));
+  }
+  const Matrix3 rotation = rotation_of(vector);
+  std::vector<double> sizes = Model::sizes_of(model.residuals(rotation));
+  Alignment alignment;
+  alignment.residual_px = median(sizes);
+  if (!(alignment.residual_px < kWorstFit)) {
+    throw InvalidInput("the photographs do not lie on a grid: points are " +
+                       std::to_string(alignment.residual_px) +
+                       " px off; check the order of the files, and that the camera fits them");
+  }
+  Eigen::Map<Matrix3>(alignment.rotation.data()) = rotation;
+  alignment.focal_px = model.focal();
+  alignment.parallax = model.parallax();
+  alignment.corrections = corrections_of(model, rotation, matches.found.size());
+  alignment.corrections[center] = {};
+  remove_trends(alignment.corrections, matches.grid);
+  return alignment;
+}
+
+ViewMatches match_views(const LightField& field, const Progress& progress) {
+  return Matcher(field, progress).run();
+}
+
+std::vector<double> vertical_disparities(const ViewMatches& matches) {
+  std::vector<double> differences;
+  for (int v = 0; v < matches.grid.v; ++v) {
+    for (int u = 0; u + 1 < matches.grid.u; ++u) {
+      const auto& left = matches.of({v, u});
+      const auto& right = matches.of({v, u + 1});
+      for (std::size_t i = 0; i < left.size(); ++i) {
+        if (!left[i] || !right[i]) continue;
+        differences.push_back(std::abs(left[i]->place.y - right[i]->place.y));
+      }
+    }
+  }
+  std::ranges::sort(differences);
+  return differences;
+}
+
+std::vector<double> view_gains(const ViewMatches& matches) {
+  std::vector<double> gains;
+  for (const auto& view : matches.found) {
+    std::vector<double> of_view;
+    for (const auto& match : view) {
+      if (match) of_view.push_back(match->gain);
+    }
+    std::ranges::sort(of_view);
+    gains.push_back(of_view.empty() ? 1 : of_view[of_view.size() / 2]);
+  }
+  return gains;
+}
 
 Patch::Patch(ImageView<const float> picture, int y, int x) {
   Eigen::Matrix<double, kCount, 4> jacobian;

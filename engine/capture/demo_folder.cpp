@@ -65,62 +65,9 @@ constexpr const char* kReadme =
     "episcope-cli ground-truth raw.h5 --pose pose.json -o lf.h5\n"
     "episcope lf.h5\n";
 
-}  // namespace
-
-Pattern demo_pattern() {
-  return {PatternKind::Chessboard, 9, 6, 25};
-}
-
-Image<std::uint8_t> demo_photograph(const DemoRig& rig, const TriangleMesh& mesh, ViewIndex view,
-                                    const Progress& progress) {
-  const PlacedMesh placed{&mesh, rig.pose};
-  const PlacedScene scene = place({&placed, 1}, progress.part(0, 0.1));
-  const auto& exposure = rig.exposures[static_cast<std::size_t>(view.v) * rig.grid.u + view.u];
-  return photograph(scene, rig.camera, exposure, progress.part(0.1, 1));
-}
-
-LightField demo_photographs(const DemoRig& rig, const TriangleMesh& mesh,
-                            const Progress& progress) {
-  const PlacedMesh placed{&mesh, rig.pose};
-  const PlacedScene scene = place({&placed, 1}, progress.part(0, 0.01));
-  ViewStack<std::uint8_t> samples(rig.grid, rig.camera.height, rig.camera.width, 3);
-  for (int i = 0; i < rig.grid.count(); ++i) {
-    const ViewIndex view = rig.grid.view_at(i);
-    progress.step("photographing view " + view_text(view));
-    const double begin = static_cast<double>(i) / rig.grid.count();
-    const Image<std::uint8_t> picture = photograph(
-        scene, rig.camera, rig.exposures[i], progress.part(begin, begin + 1.0 / rig.grid.count()));
-    std::copy(picture.begin(), picture.end(), samples.view(view).data);
-  }
-  LightFieldInfo info;
-  info.name = "gantry";
-  return LightField(std::move(samples), info);
-}
-
-void write_demo_folder(const fs::path& folder, const DemoOptions& options,
-                       const Progress& progress) {
-  make_folder(folder);
-  const DemoRig rig = demo_rig(options);
-  const TriangleMesh mesh = scan_mesh(options.detail);
-  progress.step("photographing the pattern");
-  write_pattern(folder / "pattern", rig, progress.part(0, 0.2));
-  const LightField photographs = demo_photographs(rig, mesh, progress.part(0.2, 0.95));
-  for (int i = 0; i < rig.grid.count(); ++i) {
-    progress.check();
-    const ViewIndex view = rig.grid.view_at(i);
-    io::write_png(folder / "photographs" / fmt::format("{:02}_{:02}.png", view.v, view.u),
-                  photographs.view<std::uint8_t>(view));
-  }
-  write_mesh(folder / "mesh.ply", scan_mesh_with_hole(options.detail));
-  write_pairs(folder / "picks.csv", demo_picks(rig, mesh, options));
-  io::write_atomically(folder / "readme.txt", fmt::format(fmt::runtime(kReadme), rig.step));
-  progress.report(1);
-}
-
-namespace {
-
 constexpr double kMiddleDepth = 850;
 
+// The sum of twelve uniform numbers, because std::normal_distribution differs between libraries.
 double normal(std::mt19937& random) {
   double sum = -6;
   for (int i = 0; i < 12; ++i) sum += random() * 0x1p-32;
@@ -146,85 +93,6 @@ std::array<double, 9> turn(double about_x, double about_y, double about_z) {
           cy * sx,
           cy * cx};
 }
-
-}  // namespace
-
-DemoRig demo_rig(const DemoOptions& options) {
-  DemoRig rig;
-  rig.grid = options.grid;
-  rig.camera.width = options.width;
-  rig.camera.height = options.height;
-  rig.camera.focal_x = rig.camera.focal_y = options.width * 680.0 / 480;
-  rig.camera.center_x = options.width / 2.0 + 4;
-  rig.camera.center_y = options.height / 2.0 - 3;
-  rig.camera.distortion = {-0.1, 0.01, 0, 0, 0};
-  rig.pose.rotation = turn(2, -6, 1);
-  rig.pose.translation = {5, -8, kMiddleDepth};
-  std::mt19937 random(options.seed);
-  const double millimetres = kMiddleDepth / rig.camera.focal_x;  // of a px, at the middle depth
-  const ViewIndex middle = options.grid.center();
-  for (int i = 0; i < options.grid.count(); ++i) {
-    const ViewIndex view = options.grid.view_at(i);
-    Exposure exposure;
-    exposure.x = (view.u - middle.u) * rig.step + options.jitter_px * millimetres * normal(random);
-    exposure.y = (view.v - middle.v) * rig.step + options.jitter_px * millimetres * normal(random);
-    exposure.rotation = turn(0.05, -0.08, 0.4);
-    exposure.gain = 1 + options.gain * normal(random);
-    exposure.noise = options.noise;
-    exposure.seed = options.seed * 1000 + static_cast<unsigned>(i);
-    rig.exposures.push_back(exposure);
-  }
-  return rig;
-}
-
-PlanePoint photographed(const DemoRig& rig, const Exposure& exposure, const Point3& on_scan) {
-  const Point3 p = rig.pose.apply(on_scan);
-  const double x = p.x - exposure.x;
-  const double y = p.y - exposure.y;
-  const auto& r = exposure.rotation;  // its transpose turns the gantry's axes into the camera's
-  const double z = r[2] * x + r[5] * y + r[8] * p.z;
-  return pixel_of_ray(
-      rig.camera, {(r[0] * x + r[3] * y + r[6] * p.z) / z, (r[1] * x + r[4] * y + r[7] * p.z) / z});
-}
-
-std::vector<PointPair> demo_picks(const DemoRig& rig, const TriangleMesh& mesh,
-                                  const DemoOptions& options) {
-  const ViewIndex middle = rig.grid.center();
-  const Exposure& exposure =
-      rig.exposures[static_cast<std::size_t>(middle.v) * rig.grid.u + middle.u];
-  const PlacedMesh placed{&mesh, rig.pose};
-  const PlacedScene scene = place({&placed, 1}, Progress(1));
-  ViewCamera camera{{rig.camera.focal_x, options.width * 1.0, options.height * 1.0},
-                    exposure.x,
-                    exposure.y,
-                    0,
-                    0,
-                    2 * options.height,
-                    2 * options.width};
-  const ViewSurface surface = ViewRaster(scene, 1).view(camera, Progress());
-  std::mt19937 random(options.seed + 77);
-  std::vector<PointPair> picks;
-  for (const Vertex& mark : scan_landmarks()) {
-    const Point3 on_scan{mark[0], mark[1], mark[2]};
-    const Point3 p = rig.pose.apply(on_scan);
-    const int x = static_cast<int>(
-        std::lround(camera.pinhole.focal_px * (p.x - camera.x) / p.z + camera.pinhole.center_x));
-    const int y = static_cast<int>(
-        std::lround(camera.pinhole.focal_px * (p.y - camera.y) / p.z + camera.pinhole.center_y));
-    if (x < 0 || y < 0 || x >= camera.width || y >= camera.height) continue;
-    if (surface.inverse_depth.at(y, x) > 1.01 / p.z) continue;  // hidden
-    const PlanePoint pixel = photographed(rig, exposure, on_scan);
-    const bool is_inside = pixel.x > 30 && pixel.y > 30 && pixel.x < options.width - 30 &&
-                           pixel.y < options.height - 30;
-    if (!is_inside) continue;
-    picks.push_back({fmt::format("p{}", picks.size() + 1),
-                     pixel.x + options.pick_px * normal(random),
-                     pixel.y + options.pick_px * normal(random), on_scan});
-  }
-  return picks;
-}
-
-namespace {
 
 constexpr int kFine = 3;          // samples along a pixel
 constexpr double kMargin = 1.08;  // by how much the fine picture is wider than the rays need
@@ -305,48 +173,6 @@ PlanePoint sample_of_pixel(int y, int x, int along, int i) {
   return {x + (column + 0.5) / along - 0.5, y + (row + 0.5) / along - 0.5};
 }
 
-}  // namespace
-
-Image<std::uint8_t> exposed(const Image<float>& light, const Exposure& exposure) {
-  Image<std::uint8_t> samples(light.height(), light.width(), light.channels());
-  std::mt19937 random(exposure.seed);
-  // The sum of twelve uniform numbers, because std::normal_distribution differs between libraries.
-  const auto normal = [&random] {
-    double sum = -6;
-    for (int i = 0; i < 12; ++i) sum += random() * 0x1p-32;
-    return sum;
-  };
-  for (std::size_t i = 0; i < light.size(); ++i) {
-    const double value = light.data()[i] * exposure.gain + exposure.noise * normal();
-    samples.data()[i] = static_cast<std::uint8_t>(std::clamp(std::lround(value), 0L, 255L));
-  }
-  return samples;
-}
-
-Image<std::uint8_t> photograph(const PlacedScene& scene, const LensCamera& camera,
-                               const Exposure& exposure, const Progress& progress) {
-  const ViewCamera fine = fine_camera(camera, exposure);
-  ViewRaster raster(scene, std::numeric_limits<double>::infinity());
-  const ViewSurface surface = raster.view(fine, progress.part(0, 0.5));
-  const Image<float> colors = colors_of(surface, fine, progress.part(0.5, 0.9));
-  Image<float> light(camera.height, camera.width, 3);
-  parallel_for(camera.height, progress.part(0.9, 1), [&](int y) {
-    for (int x = 0; x < camera.width; ++x) {
-      for (int i = 0; i < kFine * kFine; ++i) {
-        const PlanePoint ray =
-            turned(exposure.rotation, ray_of_pixel(camera, sample_of_pixel(y, x, kFine, i)));
-        add_sample(colors,
-                   {ray.x * fine.pinhole.focal_px + fine.pinhole.center_x,
-                    ray.y * fine.pinhole.focal_px + fine.pinhole.center_y},
-                   &light.at(y, x));
-      }
-    }
-  });
-  return exposed(light, exposure);
-}
-
-namespace {
-
 constexpr int kPixelsPerSquare = 60;
 constexpr int kPatternFine = 4;
 
@@ -405,6 +231,163 @@ bool meets(const RigidPose& pose, const PlanePoint& ray, PlanePoint& place) {
 }
 
 }  // namespace
+
+Pattern demo_pattern() {
+  return {PatternKind::Chessboard, 9, 6, 25};
+}
+
+Image<std::uint8_t> demo_photograph(const DemoRig& rig, const TriangleMesh& mesh, ViewIndex view,
+                                    const Progress& progress) {
+  const PlacedMesh placed{&mesh, rig.pose};
+  const PlacedScene scene = place({&placed, 1}, progress.part(0, 0.1));
+  const auto& exposure = rig.exposures[static_cast<std::size_t>(view.v) * rig.grid.u + view.u];
+  return photograph(scene, rig.camera, exposure, progress.part(0.1, 1));
+}
+
+LightField demo_photographs(const DemoRig& rig, const TriangleMesh& mesh,
+                            const Progress& progress) {
+  const PlacedMesh placed{&mesh, rig.pose};
+  const PlacedScene scene = place({&placed, 1}, progress.part(0, 0.01));
+  ViewStack<std::uint8_t> samples(rig.grid, rig.camera.height, rig.camera.width, 3);
+  for (int i = 0; i < rig.grid.count(); ++i) {
+    const ViewIndex view = rig.grid.view_at(i);
+    progress.step("photographing view " + view_text(view));
+    const double begin = static_cast<double>(i) / rig.grid.count();
+    const Image<std::uint8_t> picture = photograph(
+        scene, rig.camera, rig.exposures[i], progress.part(begin, begin + 1.0 / rig.grid.count()));
+    std::copy(picture.begin(), picture.end(), samples.view(view).data);
+  }
+  LightFieldInfo info;
+  info.name = "gantry";
+  return LightField(std::move(samples), info);
+}
+
+void write_demo_folder(const fs::path& folder, const DemoOptions& options,
+                       const Progress& progress) {
+  make_folder(folder);
+  const DemoRig rig = demo_rig(options);
+  const TriangleMesh mesh = scan_mesh(options.detail);
+  progress.step("photographing the pattern");
+  write_pattern(folder / "pattern", rig, progress.part(0, 0.2));
+  const LightField photographs = demo_photographs(rig, mesh, progress.part(0.2, 0.95));
+  for (int i = 0; i < rig.grid.count(); ++i) {
+    progress.check();
+    const ViewIndex view = rig.grid.view_at(i);
+    io::write_png(folder / "photographs" / fmt::format("{:02}_{:02}.png", view.v, view.u),
+                  photographs.view<std::uint8_t>(view));
+  }
+  write_mesh(folder / "mesh.ply", scan_mesh_with_hole(options.detail));
+  write_pairs(folder / "picks.csv", demo_picks(rig, mesh, options));
+  io::write_atomically(folder / "readme.txt", fmt::format(fmt::runtime(kReadme), rig.step));
+  progress.report(1);
+}
+
+DemoRig demo_rig(const DemoOptions& options) {
+  DemoRig rig;
+  rig.grid = options.grid;
+  rig.camera.width = options.width;
+  rig.camera.height = options.height;
+  rig.camera.focal_x = rig.camera.focal_y = options.width * 680.0 / 480;
+  rig.camera.center_x = options.width / 2.0 + 4;
+  rig.camera.center_y = options.height / 2.0 - 3;
+  rig.camera.distortion = {-0.1, 0.01, 0, 0, 0};
+  rig.pose.rotation = turn(2, -6, 1);
+  rig.pose.translation = {5, -8, kMiddleDepth};
+  std::mt19937 random(options.seed);
+  const double millimetres = kMiddleDepth / rig.camera.focal_x;  // of a px, at the middle depth
+  const ViewIndex middle = options.grid.center();
+  for (int i = 0; i < options.grid.count(); ++i) {
+    const ViewIndex view = options.grid.view_at(i);
+    Exposure exposure;
+    exposure.x = (view.u - middle.u) * rig.step + options.jitter_px * millimetres * normal(random);
+    exposure.y = (view.v - middle.v) * rig.step + options.jitter_px * millimetres * normal(random);
+    exposure.rotation = turn(0.05, -0.08, 0.4);
+    exposure.gain = 1 + options.gain * normal(random);
+    exposure.noise = options.noise;
+    exposure.seed = options.seed * 1000 + static_cast<unsigned>(i);
+    rig.exposures.push_back(exposure);
+  }
+  return rig;
+}
+
+PlanePoint photographed(const DemoRig& rig, const Exposure& exposure, const Point3& on_scan) {
+  const Point3 p = rig.pose.apply(on_scan);
+  const double x = p.x - exposure.x;
+  const double y = p.y - exposure.y;
+  const auto& r = exposure.rotation;  // its transpose turns the gantry's axes into the camera's
+  const double z = r[2] * x + r[5] * y + r[8] * p.z;
+  return pixel_of_ray(
+      rig.camera, {(r[0] * x + r[3] * y + r[6] * p.z) / z, (r[1] * x + r[4] * y + r[7] * p.z) / z});
+}
+
+std::vector<PointPair> demo_picks(const DemoRig& rig, const TriangleMesh& mesh,
+                                  const DemoOptions& options) {
+  const ViewIndex middle = rig.grid.center();
+  const Exposure& exposure =
+      rig.exposures[static_cast<std::size_t>(middle.v) * rig.grid.u + middle.u];
+  const PlacedMesh placed{&mesh, rig.pose};
+  const PlacedScene scene = place({&placed, 1}, Progress(1));
+  ViewCamera camera{{rig.camera.focal_x, options.width * 1.0, options.height * 1.0},
+                    exposure.x,
+                    exposure.y,
+                    0,
+                    0,
+                    2 * options.height,
+                    2 * options.width};
+  const ViewSurface surface = ViewRaster(scene, 1).view(camera, Progress());
+  std::mt19937 random(options.seed + 77);
+  std::vector<PointPair> picks;
+  for (const Vertex& mark : scan_landmarks()) {
+    const Point3 on_scan{mark[0], mark[1], mark[2]};
+    const Point3 p = rig.pose.apply(on_scan);
+    const int x = static_cast<int>(
+        std::lround(camera.pinhole.focal_px * (p.x - camera.x) / p.z + camera.pinhole.center_x));
+    const int y = static_cast<int>(
+        std::lround(camera.pinhole.focal_px * (p.y - camera.y) / p.z + camera.pinhole.center_y));
+    if (x < 0 || y < 0 || x >= camera.width || y >= camera.height) continue;
+    if (surface.inverse_depth.at(y, x) > 1.01 / p.z) continue;  // hidden
+    const PlanePoint pixel = photographed(rig, exposure, on_scan);
+    const bool is_inside = pixel.x > 30 && pixel.y > 30 && pixel.x < options.width - 30 &&
+                           pixel.y < options.height - 30;
+    if (!is_inside) continue;
+    picks.push_back({fmt::format("p{}", picks.size() + 1),
+                     pixel.x + options.pick_px * normal(random),
+                     pixel.y + options.pick_px * normal(random), on_scan});
+  }
+  return picks;
+}
+
+Image<std::uint8_t> exposed(const Image<float>& light, const Exposure& exposure) {
+  Image<std::uint8_t> samples(light.height(), light.width(), light.channels());
+  std::mt19937 random(exposure.seed);
+  for (std::size_t i = 0; i < light.size(); ++i) {
+    const double value = light.data()[i] * exposure.gain + exposure.noise * normal(random);
+    samples.data()[i] = static_cast<std::uint8_t>(std::clamp(std::lround(value), 0L, 255L));
+  }
+  return samples;
+}
+
+Image<std::uint8_t> photograph(const PlacedScene& scene, const LensCamera& camera,
+                               const Exposure& exposure, const Progress& progress) {
+  const ViewCamera fine = fine_camera(camera, exposure);
+  ViewRaster raster(scene, std::numeric_limits<double>::infinity());
+  const ViewSurface surface = raster.view(fine, progress.part(0, 0.5));
+  const Image<float> colors = colors_of(surface, fine, progress.part(0.5, 0.9));
+  Image<float> light(camera.height, camera.width, 3);
+  parallel_for(camera.height, progress.part(0.9, 1), [&](int y) {
+    for (int x = 0; x < camera.width; ++x) {
+      for (int i = 0; i < kFine * kFine; ++i) {
+        const PlanePoint ray =
+            turned(exposure.rotation, ray_of_pixel(camera, sample_of_pixel(y, x, kFine, i)));
+        add_sample(colors,
+                   {ray.x * fine.pinhole.focal_px + fine.pinhole.center_x,
+                    ray.y * fine.pinhole.focal_px + fine.pinhole.center_y},
+                   &light.at(y, x));
+      }
+    }
+  });
+  return exposed(light, exposure);
+}
 
 Image<std::uint8_t> pattern_picture(const Pattern& pattern, int pixels_per_square) {
   switch (pattern.kind) {

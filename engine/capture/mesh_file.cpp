@@ -23,7 +23,6 @@
 #include <utility>
 
 namespace episcope::capture {
-
 namespace {
 
 constexpr int kMostTries = 12;
@@ -102,26 +101,6 @@ TriangleMesh clustered(const TriangleMesh& mesh, const Vertex& low, double side)
   }
   return coarse;
 }
-
-}  // namespace
-
-TriangleMesh cluster_vertices(const TriangleMesh& mesh, std::size_t most_faces) {
-  if (mesh.faces.size() <= most_faces) return mesh;
-  const double area = area_of(mesh);
-  if (!(area > 0) || most_faces == 0) return {};
-  const Vertex low = low_corner(mesh);
-  double side = std::sqrt(kFacesOfCube * area / static_cast<double>(most_faces));
-  TriangleMesh coarse = clustered(mesh, low, side);
-  for (int i = 1; i < kMostTries && coarse.faces.size() > most_faces; ++i) {
-    const double excess =
-        static_cast<double>(coarse.faces.size()) / static_cast<double>(most_faces);
-    side *= std::max(1.1, std::sqrt(excess));
-    coarse = clustered(mesh, low, side);
-  }
-  return coarse;
-}
-
-namespace {
 
 constexpr int kMostHeaderLines = 10'000;
 
@@ -428,61 +407,6 @@ TriangleMesh mesh_of(const std::filesystem::path& path, const aiScene& scene,
   return mesh;
 }
 
-}  // namespace
-
-TriangleMesh read_mesh(const std::filesystem::path& path, const Progress& progress) {
-  require_readable(path);
-  progress.step("reading " + path.filename().string());
-  progress.check();
-  if (suffix_of(path) == ".ply") Reader(path).check();
-  Assimp::Importer importer;
-  importer.SetIOHandler(new MeshAlone(path.string()));     // owned by the importer
-  importer.SetProgressHandler(new StopHandler(progress));  // likewise
-  const aiScene* scene = nullptr;
-  try {
-    scene = importer.ReadFile(path.string(), 0);
-    if (scene != nullptr && needs_triangulation(path, *scene)) {
-      scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
-    }
-  } catch (const std::bad_alloc&) {
-    throw IoError(path, kNotEnoughMemory);
-  }
-  progress.check();
-  if (scene == nullptr) {
-    throw IoError(path, std::string("this mesh cannot be read (") + importer.GetErrorString() +
-                            "); export it again");
-  }
-  TriangleMesh mesh = mesh_of(path, *scene, progress);
-  if (mesh.faces.empty()) {
-    throw IoError(path, "this mesh has no faces, only " + std::to_string(mesh.vertices.size()) +
-                            " points; reconstruct its surface first");
-  }
-  progress.report(1);
-  return mesh;
-}
-
-void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh) {
-  const std::string header =
-      "ply\nformat binary_little_endian 1.0\nelement vertex " +
-      std::to_string(mesh.vertices.size()) +
-      "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
-      std::to_string(mesh.faces.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
-  constexpr std::size_t face_bytes = 1 + sizeof(Face);
-  std::vector<std::uint8_t> bytes(header.begin(), header.end());
-  const std::size_t vertex_bytes = mesh.vertices.size() * sizeof(Vertex);
-  bytes.resize(header.size() + vertex_bytes + mesh.faces.size() * face_bytes);
-  std::memcpy(bytes.data() + header.size(), mesh.vertices.data(), vertex_bytes);
-  std::uint8_t* at = bytes.data() + header.size() + vertex_bytes;
-  for (const Face& face : mesh.faces) {
-    *at = 3;
-    std::memcpy(at + 1, face.data(), sizeof(Face));
-    at += face_bytes;
-  }
-  io::write_atomically(path, bytes);
-}
-
-namespace {
-
 constexpr double kHead = 75;  // mm
 constexpr Vertex kBox{105, 65, -40};
 constexpr float kBoxSide = 38;  // half
@@ -543,6 +467,73 @@ void add_box(TriangleMesh& mesh, int steps) {
 }
 
 }  // namespace
+
+TriangleMesh cluster_vertices(const TriangleMesh& mesh, std::size_t most_faces) {
+  if (mesh.faces.size() <= most_faces) return mesh;
+  const double area = area_of(mesh);
+  if (!(area > 0) || most_faces == 0) return {};
+  const Vertex low = low_corner(mesh);
+  double side = std::sqrt(kFacesOfCube * area / static_cast<double>(most_faces));
+  TriangleMesh coarse = clustered(mesh, low, side);
+  for (int i = 1; i < kMostTries && coarse.faces.size() > most_faces; ++i) {
+    const double excess =
+        static_cast<double>(coarse.faces.size()) / static_cast<double>(most_faces);
+    side *= std::max(1.1, std::sqrt(excess));
+    coarse = clustered(mesh, low, side);
+  }
+  return coarse;
+}
+
+TriangleMesh read_mesh(const std::filesystem::path& path, const Progress& progress) {
+  require_readable(path);
+  progress.step("reading " + path.filename().string());
+  progress.check();
+  if (suffix_of(path) == ".ply") Reader(path).check();
+  Assimp::Importer importer;
+  importer.SetIOHandler(new MeshAlone(path.string()));     // owned by the importer
+  importer.SetProgressHandler(new StopHandler(progress));  // likewise
+  const aiScene* scene = nullptr;
+  try {
+    scene = importer.ReadFile(path.string(), 0);
+    if (scene != nullptr && needs_triangulation(path, *scene)) {
+      scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
+    }
+  } catch (const std::bad_alloc&) {
+    throw IoError(path, kNotEnoughMemory);
+  }
+  progress.check();
+  if (scene == nullptr) {
+    throw IoError(path, std::string("this mesh cannot be read (") + importer.GetErrorString() +
+                            "); export it again");
+  }
+  TriangleMesh mesh = mesh_of(path, *scene, progress);
+  if (mesh.faces.empty()) {
+    throw IoError(path, "this mesh has no faces, only " + std::to_string(mesh.vertices.size()) +
+                            " points; reconstruct its surface first");
+  }
+  progress.report(1);
+  return mesh;
+}
+
+void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh) {
+  const std::string header =
+      "ply\nformat binary_little_endian 1.0\nelement vertex " +
+      std::to_string(mesh.vertices.size()) +
+      "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
+      std::to_string(mesh.faces.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
+  constexpr std::size_t face_bytes = 1 + sizeof(Face);
+  std::vector<std::uint8_t> bytes(header.begin(), header.end());
+  const std::size_t vertex_bytes = mesh.vertices.size() * sizeof(Vertex);
+  bytes.resize(header.size() + vertex_bytes + mesh.faces.size() * face_bytes);
+  std::memcpy(bytes.data() + header.size(), mesh.vertices.data(), vertex_bytes);
+  std::uint8_t* at = bytes.data() + header.size() + vertex_bytes;
+  for (const Face& face : mesh.faces) {
+    *at = 3;
+    std::memcpy(at + 1, face.data(), sizeof(Face));
+    at += face_bytes;
+  }
+  io::write_atomically(path, bytes);
+}
 
 TriangleMesh scan_mesh(int detail) {
   TriangleMesh mesh;

@@ -347,53 +347,6 @@ void set_errors(std::span<const PointPair> pairs, const MinimizedPose& pose,
                         : std::numeric_limits<double>::quiet_NaN();
 }
 
-}  // namespace
-
-SolvedPose solve_pose(std::span<const PointPair> pairs, const CameraGrid& camera) {
-  if (!camera.pinhole) throw InvalidInput("the pinhole of the camera is not known");
-  if (pairs.size() < 4) {
-    throw InvalidInput(
-        fmt::format("a pose needs 4 pairs, and there are {}; pick more, best 10", pairs.size()));
-  }
-  if (layout_of(pairs) == PointLayout::Line) {
-    throw InvalidInput(
-        "the points of the pairs lie on one line, which leaves the pose open; pick "
-        "points beside it");
-  }
-  const Pinhole& pinhole = *camera.pinhole;
-  MinimizedPose pose = best_pose(pairs, pinhole);
-  if (!std::isfinite(pose.cost)) {
-    throw InvalidInput(
-        "no pose in front of the camera fits these pairs; check that each names the "
-        "same point in the view and on the mesh");
-  }
-  SolvedPose solved;
-  solved.pairs = judged(pairs, pose.pose, pinhole);
-  const std::vector<PointPair> rest = kept(pairs, solved.pairs);
-  refuse_mirrored(pairs, pinhole, pose.cost);
-  if (rest.size() < pairs.size()) {
-    pose = minimize_reprojection(rest, pose.pose, pinhole);
-    const std::vector<double> sizes = residuals_of(pairs, pose.pose, pinhole);
-    for (std::size_t i = 0; i < sizes.size(); ++i) solved.pairs[i].residual_px = sizes[i];
-  }
-  solved.pose = pose.pose;
-  set_errors(rest, pose, camera, solved);
-  return solved;
-}
-
-std::array<double, 2> reprojection_residual(const PointPair& pair, const RigidPose& pose,
-                                            const Pinhole& pinhole) {
-  const Point3 seen = pose.apply(pair.point);
-  if (!(seen.z > 0)) {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    return {nan, nan};
-  }
-  return {pinhole.focal_px * seen.x / seen.z + pinhole.center_x - pair.x_px,
-          pinhole.focal_px * seen.y / seen.z + pinhole.center_y - pair.y_px};
-}
-
-namespace {
-
 using Json = nlohmann::ordered_json;
 
 Json pairs_json(const PoseStory& story) {
@@ -441,35 +394,6 @@ IoError no_pose(const std::filesystem::path& path) {
           "make one with episcope-cli pose"};
 }
 
-}  // namespace
-
-std::string pose_json(const PoseStory& story, const std::filesystem::path& path) {
-  const SolvedPose& solved = story.solved;
-  Json json;
-  json["mesh"] = stored_mesh(story.mesh, path);
-  json["light_field"] = story.light_field;
-  json["rotation"] = solved.pose.rotation;
-  json["translation"] = solved.pose.translation;
-  json["reprojection_error_px"] = solved.reprojection_error_px;
-  json["delta_tz"] = solved.delta_tz;
-  if (std::isfinite(solved.delta_tz_px)) json["delta_tz_px"] = solved.delta_tz_px;
-  json["covariance"] = solved.covariance;
-  if (story.camera.pinhole) {
-    const Pinhole& pinhole = *story.camera.pinhole;
-    json["pinhole"] = {pinhole.focal_px, pinhole.center_x, pinhole.center_y};
-  }
-  json["pairs"] = pairs_json(story);
-  return io::json_text(json, 2) + "\n";
-}
-
-void write_pose(const std::filesystem::path& path, const PoseStory& story,
-                const std::filesystem::path& place) {
-  const std::string text = pose_json(story, place.empty() ? path : place);
-  io::write_atomically(path, text);
-}
-
-namespace {
-
 double number_or_zero(const Json& object, const char* key) {
   const auto found = object.find(key);
   return found != object.end() && found->is_number() ? found->get<double>() : 0;
@@ -490,37 +414,6 @@ void read_evidence(const Json& json, PoseStory& story) {
         {number_or_zero(each, "residual_px"), each.value("outlier", false)});
   }
 }
-
-}  // namespace
-
-PoseStory read_pose(const std::filesystem::path& path) {
-  if (!std::ifstream(path)) {
-    throw IoError(path, "this file cannot be read; make one with episcope-cli pose");
-  }
-  PoseStory story;
-  try {
-    const auto json = io::read_json<Json>(path);
-    story.mesh = json.at("mesh").get<std::string>();
-    json.at("rotation").get_to(story.solved.pose.rotation);
-    json.at("translation").get_to(story.solved.pose.translation);
-    story.light_field = json.value("light_field", "");
-    read_evidence(json, story);
-  } catch (const Json::exception&) {
-    throw no_pose(path);
-  } catch (const InvalidInput&) {
-    throw no_pose(path);
-  }
-  if (!is_rotation(story.solved.pose.rotation)) {
-    throw IoError(path,
-                  "rotation is no rotation matrix; make the pose again with episcope-cli pose");
-  }
-  if (story.mesh.is_relative()) {
-    story.mesh = std::filesystem::absolute(path).parent_path() / story.mesh;
-  }
-  return story;
-}
-
-namespace {
 
 constexpr const char* kHeader = "name,x_px,y_px,X,Y,Z";
 constexpr const char* kLocked = ",locked";
@@ -556,6 +449,101 @@ PointPair pair_of(const std::filesystem::path& path, int line,
 }
 
 }  // namespace
+
+SolvedPose solve_pose(std::span<const PointPair> pairs, const CameraGrid& camera) {
+  if (!camera.pinhole) throw InvalidInput("the pinhole of the camera is not known");
+  if (pairs.size() < 4) {
+    throw InvalidInput(
+        fmt::format("a pose needs 4 pairs, and there are {}; pick more, best 10", pairs.size()));
+  }
+  if (layout_of(pairs) == PointLayout::Line) {
+    throw InvalidInput(
+        "the points of the pairs lie on one line, which leaves the pose open; pick "
+        "points beside it");
+  }
+  const Pinhole& pinhole = *camera.pinhole;
+  MinimizedPose pose = best_pose(pairs, pinhole);
+  if (!std::isfinite(pose.cost)) {
+    throw InvalidInput(
+        "no pose in front of the camera fits these pairs; check that each names the "
+        "same point in the view and on the mesh");
+  }
+  SolvedPose solved;
+  solved.pairs = judged(pairs, pose.pose, pinhole);
+  const std::vector<PointPair> rest = kept(pairs, solved.pairs);
+  refuse_mirrored(pairs, pinhole, pose.cost);
+  if (rest.size() < pairs.size()) {
+    pose = minimize_reprojection(rest, pose.pose, pinhole);
+    const std::vector<double> sizes = residuals_of(pairs, pose.pose, pinhole);
+    for (std::size_t i = 0; i < sizes.size(); ++i) solved.pairs[i].residual_px = sizes[i];
+  }
+  solved.pose = pose.pose;
+  set_errors(rest, pose, camera, solved);
+  return solved;
+}
+
+std::array<double, 2> reprojection_residual(const PointPair& pair, const RigidPose& pose,
+                                            const Pinhole& pinhole) {
+  const Point3 seen = pose.apply(pair.point);
+  if (!(seen.z > 0)) {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    return {nan, nan};
+  }
+  return {pinhole.focal_px * seen.x / seen.z + pinhole.center_x - pair.x_px,
+          pinhole.focal_px * seen.y / seen.z + pinhole.center_y - pair.y_px};
+}
+
+std::string pose_json(const PoseStory& story, const std::filesystem::path& path) {
+  const SolvedPose& solved = story.solved;
+  Json json;
+  json["mesh"] = stored_mesh(story.mesh, path);
+  json["light_field"] = story.light_field;
+  json["rotation"] = solved.pose.rotation;
+  json["translation"] = solved.pose.translation;
+  json["reprojection_error_px"] = solved.reprojection_error_px;
+  json["delta_tz"] = solved.delta_tz;
+  if (std::isfinite(solved.delta_tz_px)) json["delta_tz_px"] = solved.delta_tz_px;
+  json["covariance"] = solved.covariance;
+  if (story.camera.pinhole) {
+    const Pinhole& pinhole = *story.camera.pinhole;
+    json["pinhole"] = {pinhole.focal_px, pinhole.center_x, pinhole.center_y};
+  }
+  json["pairs"] = pairs_json(story);
+  return io::json_text(json, 2) + "\n";
+}
+
+void write_pose(const std::filesystem::path& path, const PoseStory& story,
+                const std::filesystem::path& place) {
+  const std::string text = pose_json(story, place.empty() ? path : place);
+  io::write_atomically(path, text);
+}
+
+PoseStory read_pose(const std::filesystem::path& path) {
+  if (!std::ifstream(path)) {
+    throw IoError(path, "this file cannot be read; make one with episcope-cli pose");
+  }
+  PoseStory story;
+  try {
+    const auto json = io::read_json<Json>(path);
+    story.mesh = json.at("mesh").get<std::string>();
+    json.at("rotation").get_to(story.solved.pose.rotation);
+    json.at("translation").get_to(story.solved.pose.translation);
+    story.light_field = json.value("light_field", "");
+    read_evidence(json, story);
+  } catch (const Json::exception&) {
+    throw no_pose(path);
+  } catch (const InvalidInput&) {
+    throw no_pose(path);
+  }
+  if (!is_rotation(story.solved.pose.rotation)) {
+    throw IoError(path,
+                  "rotation is no rotation matrix; make the pose again with episcope-cli pose");
+  }
+  if (story.mesh.is_relative()) {
+    story.mesh = std::filesystem::absolute(path).parent_path() / story.mesh;
+  }
+  return story;
+}
 
 std::vector<PointPair> read_pairs(const std::filesystem::path& path) {
   std::ifstream file(path);

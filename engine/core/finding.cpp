@@ -2,7 +2,6 @@
 #include "engine/core/finding.h"
 
 #include <cstddef>
-#include <functional>
 #include <span>
 #include <utility>
 

@@ -7,7 +7,6 @@
 #include <cassert>
 #include <cstddef>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
 namespace episcope {

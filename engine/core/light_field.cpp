@@ -59,6 +59,161 @@ class WordHash {
   std::size_t count_ = 0;
 };
 
+void gradient_norms(const float* here, const float* below, int width, int channels, float* out) {
+  for (int x = 0; x < width; ++x) {
+    const int right = x + 1 < width ? channels : 0;
+    float energy = 0;
+    for (int c = 0; c < channels; ++c) {
+      const int i = x * channels + c;
+      const float dx = here[i + right] - here[i];
+      const float dy = below[i] - here[i];
+      energy += dx * dx + dy * dy;
+    }
+    out[x] = std::sqrt(energy);
+  }
+}
+
+void require_inside(const LightField& light_field, ViewIndex view, int line, int count,
+                    const char* axis) {
+  if (!light_field.grid().contains(view) || line < 0 || line >= count) {
+    throw InvalidInput(
+        fmt::format("there is no EPI through view ({}, {}) at {} {}: the light field has {}×{} "
+                    "views of {}×{} pixels",
+                    view.v, view.u, axis, line, light_field.grid().v, light_field.grid().u,
+                    light_field.width(), light_field.height()));
+  }
+}
+
+// out(i) = in(i + offset), linear, clamped.
+void shift_row(const float* in, int width, int channels, double offset, float* out) {
+  const double whole = std::floor(offset);
+  const auto fraction = static_cast<float>(offset - whole);
+  const int step = static_cast<int>(whole);
+  for (int x = 0; x < width; ++x) {
+    const int left = std::clamp(x + step, 0, width - 1) * channels;
+    const int right = std::clamp(x + step + 1, 0, width - 1) * channels;
+    for (int c = 0; c < channels; ++c) {
+      out[x * channels + c] = (1 - fraction) * in[left + c] + fraction * in[right + c];
+    }
+  }
+}
+
+template <class ReadLine>
+Image<float> gather(int rows, int width, int channels, int fixed_row, double focus_px,
+                    const ReadLine& read_line) {
+  Image<float> epi(rows, width, channels);
+  std::vector<float> line(static_cast<std::size_t>(width) * channels);
+  for (int s = 0; s < rows; ++s) {
+    if (focus_px == 0 || s == fixed_row) {
+      read_line(s, epi.row(s));
+      continue;
+    }
+    read_line(s, line.data());
+    // A point of disparity d appears at x − d·(u − u_c): fetching there puts it upright.
+    shift_row(line.data(), width, channels, -focus_px * (s - fixed_row), epi.row(s));
+  }
+  return epi;
+}
+
+constexpr double kRegular = 0.02;  // steps
+constexpr double kOutlier = 0.5;   // steps
+constexpr double kMostOutliers = 0.1;
+constexpr double kMostSkew = 1.0 / 3;
+constexpr double kMostRatio = 2;
+constexpr int kPlaneSweeps = 50;
+
+double median_of_finite(std::vector<float> values) {
+  std::erase_if(values, [](float value) { return !std::isfinite(value); });
+  return values.empty() ? 0 : quantile(values, 0.5);
+}
+
+// One coordinate of all positions, and the plane through it: base + along_u·u + along_v·v.
+class Coordinate {
+ public:
+  Coordinate(GridShape grid, std::vector<double> values) : grid_(grid), values_(std::move(values)) {
+    along_u = median_of_finite(differences({0, 1}));
+    along_v = median_of_finite(differences({1, 0}));
+    std::vector<float> bases;
+    bases.reserve(grid_.count());
+    for (int i = 0; i < grid_.count(); ++i) {
+      bases.push_back(static_cast<float>(values_[i] - slope(grid_.view_at(i))));
+    }
+    base_ = median_of_finite(bases);
+  }
+
+  // Least squares over the views that are believed, by Gauss and Seidel.
+  void refine(const std::vector<bool>& is_believed) {
+    for (int sweep = 0; sweep < kPlaneSweeps; ++sweep) {
+      base_ += mean_residual(is_believed, [](ViewIndex) { return 1; });
+      along_u += mean_residual(is_believed, [this](ViewIndex v) { return v.u - grid_.center().u; });
+      along_v += mean_residual(is_believed, [this](ViewIndex v) { return v.v - grid_.center().v; });
+    }
+  }
+
+  [[nodiscard]] double fitted(int i) const { return base_ + slope(grid_.view_at(i)); }
+  // As stated, or where the grid has it.
+  [[nodiscard]] double value(int i, bool is_stated) const {
+    return is_stated ? values_[i] : fitted(i);
+  }
+  [[nodiscard]] bool is_near(int i, double distance) const {
+    return std::abs(values_[i] - fitted(i)) <= distance;
+  }
+
+  double along_u = 0, along_v = 0;
+
+ private:
+  // About the center.
+  [[nodiscard]] double slope(ViewIndex view) const {
+    return along_u * (view.u - grid_.center().u) + along_v * (view.v - grid_.center().v);
+  }
+  // The change of a coefficient that fits the residuals best.
+  template <class Factor>
+  [[nodiscard]] double mean_residual(const std::vector<bool>& is_believed,
+                                     const Factor& factor) const {
+    double sum = 0, weight = 0;
+    for (int i = 0; i < grid_.count(); ++i) {
+      if (!is_believed[i]) continue;
+      const double f = factor(grid_.view_at(i));
+      sum += f * (values_[i] - fitted(i));
+      weight += f * f;
+    }
+    return weight > 0 ? sum / weight : 0;
+  }
+  [[nodiscard]] std::vector<float> differences(ViewIndex way) const {
+    std::vector<float> all;
+    for (int i = 0; i < grid_.count(); ++i) {
+      const ViewIndex view = grid_.view_at(i), next{view.v + way.v, view.u + way.u};
+      if (!grid_.contains(next)) continue;
+      all.push_back(static_cast<float>(values_[next.v * grid_.u + next.u] - values_[i]));
+    }
+    return all;
+  }
+
+  GridShape grid_;
+  std::vector<double> values_;
+  double base_ = 0;
+};
+
+// Whether positions grow with columns along x and with rows along y.
+bool is_upright(const Coordinate& x, const Coordinate& y, GridShape grid) {
+  const double step_u = std::abs(x.along_u), step_v = std::abs(y.along_v);
+  if (grid.u > 1 && !(step_u > 0 && std::abs(y.along_u) <= kMostSkew * step_u)) return false;
+  if (grid.v > 1 && !(step_v > 0 && std::abs(x.along_v) <= kMostSkew * step_v)) return false;
+  return true;
+}
+
+double deviation_from_grid(const std::vector<ViewPlace>& places, GridShape grid) {
+  const ViewIndex center = grid.center();
+  const ViewPlace origin = places[static_cast<std::size_t>(center.v) * grid.u + center.u];
+  double largest = 0;
+  for (int i = 0; i < grid.count(); ++i) {
+    const ViewIndex view = grid.view_at(i);
+    largest = std::max({largest, std::abs(places[i].v - origin.v - (view.v - center.v)),
+                        std::abs(places[i].u - origin.u - (view.u - center.u))});
+  }
+  return largest;
+}
+
 }  // namespace
 
 LightField::LightField(LightField&& other, LightFieldInfo info)
@@ -178,66 +333,6 @@ std::uint64_t LightField::sample_hash() const {
   return hash.value();
 }
 
-namespace {
-
-void gradient_norms(const float* here, const float* below, int width, int channels, float* out) {
-  for (int x = 0; x < width; ++x) {
-    const int right = x + 1 < width ? channels : 0;
-    float energy = 0;
-    for (int c = 0; c < channels; ++c) {
-      const int i = x * channels + c;
-      const float dx = here[i + right] - here[i];
-      const float dy = below[i] - here[i];
-      energy += dx * dx + dy * dy;
-    }
-    out[x] = std::sqrt(energy);
-  }
-}
-
-void require_inside(const LightField& light_field, ViewIndex view, int line, int count,
-                    const char* axis) {
-  if (!light_field.grid().contains(view) || line < 0 || line >= count) {
-    throw InvalidInput(
-        fmt::format("there is no EPI through view ({}, {}) at {} {}: the light field has {}×{} "
-                    "views of {}×{} pixels",
-                    view.v, view.u, axis, line, light_field.grid().v, light_field.grid().u,
-                    light_field.width(), light_field.height()));
-  }
-}
-
-// out(i) = in(i + offset), linear, clamped.
-void shift_row(const float* in, int width, int channels, double offset, float* out) {
-  const double whole = std::floor(offset);
-  const auto fraction = static_cast<float>(offset - whole);
-  const int step = static_cast<int>(whole);
-  for (int x = 0; x < width; ++x) {
-    const int left = std::clamp(x + step, 0, width - 1) * channels;
-    const int right = std::clamp(x + step + 1, 0, width - 1) * channels;
-    for (int c = 0; c < channels; ++c) {
-      out[x * channels + c] = (1 - fraction) * in[left + c] + fraction * in[right + c];
-    }
-  }
-}
-
-template <class ReadLine>
-Image<float> gather(int rows, int width, int channels, int fixed_row, double focus_px,
-                    const ReadLine& read_line) {
-  Image<float> epi(rows, width, channels);
-  std::vector<float> line(static_cast<std::size_t>(width) * channels);
-  for (int s = 0; s < rows; ++s) {
-    if (focus_px == 0 || s == fixed_row) {
-      read_line(s, epi.row(s));
-      continue;
-    }
-    read_line(s, line.data());
-    // A point of disparity d appears at x − d·(u − u_c): fetching there puts it upright.
-    shift_row(line.data(), width, channels, -focus_px * (s - fixed_row), epi.row(s));
-  }
-  return epi;
-}
-
-}  // namespace
-
 void gradient_magnitude(const LightField& light_field, ViewIndex view, ImageView<float> out) {
   const LightField& lf = light_field;
   std::vector<float> here(static_cast<std::size_t>(lf.width()) * lf.channels());
@@ -266,109 +361,6 @@ Image<float> vertical_epi(const LightField& lf, ViewIndex view, int x, double fo
     lf.read_column({v, view.u}, x, 0, lf.height(), out);
   });
 }
-
-namespace {
-
-constexpr double kRegular = 0.02;  // steps
-constexpr double kOutlier = 0.5;   // steps
-constexpr double kMostOutliers = 0.1;
-constexpr double kMostSkew = 1.0 / 3;
-constexpr double kMostRatio = 2;
-constexpr int kPlaneSweeps = 50;
-
-double median_of_finite(std::vector<float> values) {
-  std::erase_if(values, [](float value) { return !std::isfinite(value); });
-  return values.empty() ? 0 : quantile(values, 0.5);
-}
-
-// One coordinate of all positions, and the plane through it: base + along_u·u + along_v·v.
-class Coordinate {
- public:
-  Coordinate(GridShape grid, std::vector<double> values) : grid_(grid), values_(std::move(values)) {
-    along_u = median_of_finite(differences({0, 1}));
-    along_v = median_of_finite(differences({1, 0}));
-    std::vector<float> bases;
-    bases.reserve(grid_.count());
-    for (int i = 0; i < grid_.count(); ++i) {
-      bases.push_back(static_cast<float>(values_[i] - slope(grid_.view_at(i))));
-    }
-    base_ = median_of_finite(bases);
-  }
-
-  // Least squares over the views that are believed, by Gauss and Seidel.
-  void refine(const std::vector<bool>& is_believed) {
-    for (int sweep = 0; sweep < kPlaneSweeps; ++sweep) {
-      base_ += mean_residual(is_believed, [](ViewIndex) { return 1; });
-      along_u += mean_residual(is_believed, [this](ViewIndex v) { return v.u - grid_.center().u; });
-      along_v += mean_residual(is_believed, [this](ViewIndex v) { return v.v - grid_.center().v; });
-    }
-  }
-
-  [[nodiscard]] double fitted(int i) const { return base_ + slope(grid_.view_at(i)); }
-  // As stated, or where the grid has it.
-  [[nodiscard]] double value(int i, bool is_stated) const {
-    return is_stated ? values_[i] : fitted(i);
-  }
-  [[nodiscard]] bool is_near(int i, double distance) const {
-    return std::abs(values_[i] - fitted(i)) <= distance;
-  }
-
-  double along_u = 0, along_v = 0;
-
- private:
-  // About the center.
-  [[nodiscard]] double slope(ViewIndex view) const {
-    return along_u * (view.u - grid_.center().u) + along_v * (view.v - grid_.center().v);
-  }
-  // The change of a coefficient that fits the residuals best.
-  template <class Factor>
-  [[nodiscard]] double mean_residual(const std::vector<bool>& is_believed,
-                                     const Factor& factor) const {
-    double sum = 0, weight = 0;
-    for (int i = 0; i < grid_.count(); ++i) {
-      if (!is_believed[i]) continue;
-      const double f = factor(grid_.view_at(i));
-      sum += f * (values_[i] - fitted(i));
-      weight += f * f;
-    }
-    return weight > 0 ? sum / weight : 0;
-  }
-  [[nodiscard]] std::vector<float> differences(ViewIndex way) const {
-    std::vector<float> all;
-    for (int i = 0; i < grid_.count(); ++i) {
-      const ViewIndex view = grid_.view_at(i), next{view.v + way.v, view.u + way.u};
-      if (!grid_.contains(next)) continue;
-      all.push_back(static_cast<float>(values_[next.v * grid_.u + next.u] - values_[i]));
-    }
-    return all;
-  }
-
-  GridShape grid_;
-  std::vector<double> values_;
-  double base_ = 0;
-};
-
-// Whether positions grow with columns along x and with rows along y.
-bool is_upright(const Coordinate& x, const Coordinate& y, GridShape grid) {
-  const double step_u = std::abs(x.along_u), step_v = std::abs(y.along_v);
-  if (grid.u > 1 && !(step_u > 0 && std::abs(y.along_u) <= kMostSkew * step_u)) return false;
-  if (grid.v > 1 && !(step_v > 0 && std::abs(x.along_v) <= kMostSkew * step_v)) return false;
-  return true;
-}
-
-double deviation_from_grid(const std::vector<ViewPlace>& places, GridShape grid) {
-  const ViewIndex center = grid.center();
-  const ViewPlace origin = places[static_cast<std::size_t>(center.v) * grid.u + center.u];
-  double largest = 0;
-  for (int i = 0; i < grid.count(); ++i) {
-    const ViewIndex view = grid.view_at(i);
-    largest = std::max({largest, std::abs(places[i].v - origin.v - (view.v - center.v)),
-                        std::abs(places[i].u - origin.u - (view.u - center.u))});
-  }
-  return largest;
-}
-
-}  // namespace
 
 ViewPlaces view_places(const LightFieldInfo& info, GridShape grid) {
   ViewPlaces result;

@@ -3,7 +3,6 @@
 
 #include "engine/core/indices.h"
 
-#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>

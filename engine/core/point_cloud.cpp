@@ -35,6 +35,57 @@ void check(const ImageView<const float>& map, const ImageView<const std::uint8_t
   }
 }
 
+constexpr std::int32_t kMissing = -1;
+
+/// A point as a corner of a cell: its place in the cloud and its disparity.
+struct Corner {
+  std::int32_t point;
+  float disparity_px;
+};
+
+/// Which point is where, `[y / step][x / step]`.
+Image<std::int32_t> points_by_place(const PointCloud& cloud, const DisparityView& view, int step) {
+  const auto rows = [step](int pixels) { return (pixels + step - 1) / step; };
+  Image<std::int32_t> points(rows(view.disparity.height), rows(view.disparity.width), 1, kMissing);
+  for (std::size_t i = 0; i < cloud.pixels.size(); ++i) {
+    points.at(cloud.pixels[i].y / step, cloud.pixels[i].x / step) = static_cast<std::int32_t>(i);
+  }
+  return points;
+}
+
+class Joiner {
+ public:
+  Joiner(PointCloud& cloud, double most_px) : cloud_(cloud), most_px_(most_px) {}
+
+  /// Corners of a cell, counter-clockwise as the viewer sees them.
+  void join(const Corner& a, const Corner& b, const Corner& c, const Corner& d) {
+    const bool along_ac =
+        b.point == kMissing || d.point == kMissing ||
+        (a.point != kMissing && c.point != kMissing &&
+         std::abs(a.disparity_px - c.disparity_px) <= std::abs(b.disparity_px - d.disparity_px));
+    if (along_ac) {
+      add(a, b, c);
+      add(a, c, d);
+    } else {
+      add(a, b, d);
+      add(b, c, d);
+    }
+  }
+
+ private:
+  void add(const Corner& a, const Corner& b, const Corner& c) {
+    if (std::min({a.point, b.point, c.point}) == kMissing) return;
+    const auto [low, high] = std::minmax({a.disparity_px, b.disparity_px, c.disparity_px});
+    if (high - low > most_px_) return;
+    cloud_.triangles.push_back({static_cast<std::uint32_t>(a.point),
+                                static_cast<std::uint32_t>(b.point),
+                                static_cast<std::uint32_t>(c.point)});
+  }
+
+  PointCloud& cloud_;
+  double most_px_;
+};
+
 }  // namespace
 
 BackProjection::BackProjection(const CameraGrid& camera, int height, int width, double z_per_px)
@@ -88,61 +139,6 @@ PointCloud make_point_cloud(const DisparityView& view, const CameraGrid& camera,
   }
   return cloud;
 }
-
-namespace {
-
-constexpr std::int32_t kMissing = -1;
-
-/// A point as a corner of a cell: its place in the cloud and its disparity.
-struct Corner {
-  std::int32_t point;
-  float disparity_px;
-};
-
-/// Which point is where, `[y / step][x / step]`.
-Image<std::int32_t> points_by_place(const PointCloud& cloud, const DisparityView& view, int step) {
-  const auto rows = [step](int pixels) { return (pixels + step - 1) / step; };
-  Image<std::int32_t> points(rows(view.disparity.height), rows(view.disparity.width), 1, kMissing);
-  for (std::size_t i = 0; i < cloud.pixels.size(); ++i) {
-    points.at(cloud.pixels[i].y / step, cloud.pixels[i].x / step) = static_cast<std::int32_t>(i);
-  }
-  return points;
-}
-
-class Joiner {
- public:
-  Joiner(PointCloud& cloud, double most_px) : cloud_(cloud), most_px_(most_px) {}
-
-  /// Corners of a cell, counter-clockwise as the viewer sees them.
-  void join(const Corner& a, const Corner& b, const Corner& c, const Corner& d) {
-    const bool along_ac =
-        b.point == kMissing || d.point == kMissing ||
-        (a.point != kMissing && c.point != kMissing &&
-         std::abs(a.disparity_px - c.disparity_px) <= std::abs(b.disparity_px - d.disparity_px));
-    if (along_ac) {
-      add(a, b, c);
-      add(a, c, d);
-    } else {
-      add(a, b, d);
-      add(b, c, d);
-    }
-  }
-
- private:
-  void add(const Corner& a, const Corner& b, const Corner& c) {
-    if (std::min({a.point, b.point, c.point}) == kMissing) return;
-    const auto [low, high] = std::minmax({a.disparity_px, b.disparity_px, c.disparity_px});
-    if (high - low > most_px_) return;
-    cloud_.triangles.push_back({static_cast<std::uint32_t>(a.point),
-                                static_cast<std::uint32_t>(b.point),
-                                static_cast<std::uint32_t>(c.point)});
-  }
-
-  PointCloud& cloud_;
-  double most_px_;
-};
-
-}  // namespace
 
 void join_to_surface(PointCloud& cloud, const DisparityView& view, int step, double jump_px) {
   if (!(jump_px > 0)) throw InvalidInput("a surface needs a positive jump to be cut at, in px");

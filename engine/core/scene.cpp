@@ -13,6 +13,39 @@ std::string with_author(const std::string& text, bool was_chosen) {
   return was_chosen ? text + ", as chosen by hand" : text;
 }
 
+class ShiftedTruth : public HighResTruth {
+ public:
+  ShiftedTruth(HighResTruthPtr truth, float by_px) : truth_(std::move(truth)), by_px_(by_px) {}
+
+  [[nodiscard]] Image<float> read_disparity() const override {
+    Image<float> map = truth_->read_disparity();
+    for (float& d : map) d += by_px_;
+    return map;
+  }
+  [[nodiscard]] std::vector<std::string> regions() const override { return truth_->regions(); }
+  [[nodiscard]] Image<std::uint8_t> read_region(const std::string& name) const override {
+    return truth_->read_region(name);
+  }
+  [[nodiscard]] std::string identity() const override {
+    return truth_->identity() + " " + std::to_string(by_px_);
+  }
+
+ private:
+  HighResTruthPtr truth_;
+  float by_px_;
+};
+
+/// Fully saturated color wheel, dimmed: `hue` in [0, 1).
+Rgb hue_color(double hue, double brightness) {
+  Rgb color{};
+  for (int c = 0; c < 3; ++c) {
+    const double place = std::fmod(hue * 6 + 6 - 2 * c, 6.0);
+    const double level = std::clamp(std::abs(place - 3) - 1, 0.0, 1.0);
+    color[c] = static_cast<std::uint8_t>(std::lround(255 * brightness * (0.15 + 0.85 * level)));
+  }
+  return color;
+}
+
 }  // namespace
 
 std::string order_text(const ConventionReport& report) {
@@ -52,32 +85,6 @@ const char* companion_name(CompanionKind kind) {
   return "";
 }
 
-namespace {
-
-class ShiftedTruth : public HighResTruth {
- public:
-  ShiftedTruth(HighResTruthPtr truth, float by_px) : truth_(std::move(truth)), by_px_(by_px) {}
-
-  [[nodiscard]] Image<float> read_disparity() const override {
-    Image<float> map = truth_->read_disparity();
-    for (float& d : map) d += by_px_;
-    return map;
-  }
-  [[nodiscard]] std::vector<std::string> regions() const override { return truth_->regions(); }
-  [[nodiscard]] Image<std::uint8_t> read_region(const std::string& name) const override {
-    return truth_->read_region(name);
-  }
-  [[nodiscard]] std::string identity() const override {
-    return truth_->identity() + " " + std::to_string(by_px_);
-  }
-
- private:
-  HighResTruthPtr truth_;
-  float by_px_;
-};
-
-}  // namespace
-
 StratifiedScene stratified_scene(const std::string& name) {
   if (name == "backgammon") return StratifiedScene::Backgammon;
   if (name == "dots") return StratifiedScene::Dots;
@@ -94,21 +101,6 @@ std::string estimated_text(const Provenance& estimated) {
 HighResTruthPtr shifted(HighResTruthPtr truth, float by_px) {
   return truth ? std::make_shared<const ShiftedTruth>(std::move(truth), by_px) : nullptr;
 }
-
-namespace {
-
-/// Fully saturated color wheel, dimmed: `hue` in [0, 1).
-Rgb hue_color(double hue, double brightness) {
-  Rgb color{};
-  for (int c = 0; c < 3; ++c) {
-    const double place = std::fmod(hue * 6 + 6 - 2 * c, 6.0);
-    const double level = std::clamp(std::abs(place - 3) - 1, 0.0, 1.0);
-    color[c] = static_cast<std::uint8_t>(std::lround(255 * brightness * (0.15 + 0.85 * level)));
-  }
-  return color;
-}
-
-}  // namespace
 
 Rgb label_color(std::int32_t id) {
   // Greedily, from a grid of colors: the next one is farthest from all before under normal,

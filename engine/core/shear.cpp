@@ -4,12 +4,13 @@
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <utility>
 
 namespace episcope {
@@ -117,24 +118,29 @@ void require_in_sight(const LightField& light_field, double focus_px) {
   const GridShape grid = light_field.grid();
   const double reach = std::abs(focus_px) * std::max(grid.v, grid.u) / 2;
   if (reach < std::min(light_field.height(), light_field.width())) return;  // false for NaN
-  std::ostringstream text;
-  text << "a focus plane of " << focus_px << " px moves the outer views out of the image of "
-       << light_field.width() << "×" << light_field.height() << " px; choose a smaller one";
-  throw InvalidInput(text.str());
+  throw InvalidInput(
+      fmt::format("a focus plane of {:g} px moves the outer views out of the image of {}×{} px; "
+                  "choose a smaller "
+                  "one",
+                  focus_px, light_field.width(), light_field.height()));
+}
+
+/// Copies the pixels that stand `down` and `right` of those of `out`; where there are none, these
+/// stay.
+template <class T>
+void copy_moved(ImageView<const T> in, int down, int right, ImageView<T> out) {
+  for (int y = std::max(0, -down); y < std::min(out.height, in.height - down); ++y) {
+    for (int x = std::max(0, -right); x < std::min(out.width, in.width - right); ++x) {
+      out.at(y, x) = in.at(y + down, x + right);
+    }
+  }
 }
 
 /// Nearest pixels; 0, which says nothing, where there is none.
 template <class T>
 Image<T> nearest(ImageView<const T> in, const ViewOffset& offset) {
   Image<T> out(in.height, in.width);
-  for (int y = 0; y < in.height; ++y) {
-    const int from_y = y + offset.y.nearest();
-    if (from_y < 0 || from_y >= in.height) continue;
-    for (int x = 0; x < in.width; ++x) {
-      const int from_x = x + offset.x.nearest();
-      if (from_x >= 0 && from_x < in.width) out.at(y, x) = in.at(from_y, from_x);
-    }
-  }
+  copy_moved(in, offset.y.nearest(), offset.x.nearest(), out.view());
   return out;
 }
 
@@ -208,20 +214,6 @@ LightFieldInfo moved(LightFieldInfo info, double focus_px) {
   return info;
 }
 
-/// Writes the painted pixels of a sheared view where they were; the view as it was reaches further
-/// than that, and is left as it is there.
-void put_back(ImageView<const std::int32_t> in, const ViewOffset& offset,
-              ImageView<std::int32_t> out) {
-  for (int y = 0; y < in.height; ++y) {
-    const int to_y = y + offset.y.nearest();
-    if (to_y < 0 || to_y >= in.height) continue;
-    for (int x = 0; x < in.width; ++x) {
-      const int to_x = x + offset.x.nearest();
-      if (to_x >= 0 && to_x < in.width) out.at(to_y, to_x) = in.at(y, x);
-    }
-  }
-}
-
 const Image<std::int32_t>* painted_on(ViewIndex view, const Scribbles& scribbles) {
   const auto found = std::ranges::find(scribbles.views, view, &ViewScribbles::view);
   return found == scribbles.views.end() ? nullptr : &found->labels;
@@ -239,11 +231,19 @@ std::vector<ViewIndex> painted_in(const Scribbles& a, const Scribbles& b) {
   return views;
 }
 
-std::string note_of(double focus_px) {
-  std::ostringstream text;
-  text.precision(4);
-  text << "moved to a focus plane of " << focus_px << " px after it was estimated";
-  return text.str();
+template <class T>
+ViewStack<T> cropped(const ViewStack<T>& stack, const PixelRect& part, const Progress& progress) {
+  ViewStack<T> kept(stack.grid(), part.y1 - part.y0, part.x1 - part.x0, stack.channels());
+  const std::size_t row_size = static_cast<std::size_t>(kept.width()) * kept.channels();
+  parallel_for(kept.grid().count(), progress, [&](int i) {
+    const auto from = stack.view(stack.view_at(i));
+    const auto to = kept.view(kept.view_at(i));
+    for (int y = 0; y < kept.height(); ++y) {
+      const T* row = from.row(part.y0 + y) + static_cast<std::size_t>(part.x0) * kept.channels();
+      std::copy_n(row, row_size, to.row(y));
+    }
+  });
+  return kept;
 }
 
 }  // namespace
@@ -322,7 +322,10 @@ Scribbles unsheared(const Scribbles& scribbles, const Scribbles& before, ViewInd
       std::ranges::transform(*former, put.begin(),
                              [&](std::int32_t id) { return is_known(id) ? id : 0; });
     }
-    put_back(now ? now->view() : bare.view(), offset_of(view, center, focus_px), put.view());
+    // The view as it was reaches further than the sheared one, and is left as it is there.
+    const ViewOffset offset = offset_of(view, center, focus_px);
+    copy_moved(now ? now->view() : bare.view(), -offset.y.nearest(), -offset.x.nearest(),
+               put.view());
     const bool is_bare = std::ranges::all_of(put, [](std::int32_t id) { return id == 0; });
     if (!is_bare) result.views.push_back({view, std::move(put)});
   }
@@ -372,28 +375,10 @@ Estimate sheared(const Estimate& estimate, const ShearedInto& into, double focus
   result.camera = moved(estimate.camera, focus_px);
   result.source_hash = into.sample_hash;
   result.reading.set_focus(estimate.reading.focus_px() + focus_px);
-  result.notes.push_back(note_of(focus_px));
+  result.notes.push_back(
+      fmt::format("moved to a focus plane of {:.4g} px after it was estimated", focus_px));
   return result;
 }
-
-namespace {
-
-template <class T>
-ViewStack<T> cropped(const ViewStack<T>& stack, const PixelRect& part, const Progress& progress) {
-  ViewStack<T> kept(stack.grid(), part.y1 - part.y0, part.x1 - part.x0, stack.channels());
-  const std::size_t row_size = static_cast<std::size_t>(kept.width()) * kept.channels();
-  parallel_for(kept.grid().count(), progress, [&](int i) {
-    const auto from = stack.view(stack.view_at(i));
-    const auto to = kept.view(kept.view_at(i));
-    for (int y = 0; y < kept.height(); ++y) {
-      const T* row = from.row(part.y0 + y) + static_cast<std::size_t>(part.x0) * kept.channels();
-      std::copy_n(row, row_size, to.row(y));
-    }
-  });
-  return kept;
-}
-
-}  // namespace
 
 LightField cropped(const LightField& lf, const PixelRect& part, const Progress& progress) {
   assert(!part.empty() && part.y0 >= 0 && part.x0 >= 0 && part.y1 <= lf.height() &&

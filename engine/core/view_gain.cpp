@@ -282,35 +282,6 @@ void settle(int center, const std::vector<Ratio>& ratios, std::vector<double>& l
   }
 }
 
-}  // namespace
-
-PhotometricCorrection measure_view_gains(const LightField::Samples& samples,
-                                         const ViewStack<std::uint8_t>& valid,
-                                         const Progress& progress, GainBlocks blocks) {
-  const GridShape grid = grid_of(samples);
-  const int channels = std::visit([](const auto& stack) { return stack.channels(); }, samples);
-  const Ratios all = find_ratios(samples, valid, progress, blocks);
-  const int center = grid.center().v * grid.u + grid.center().u;
-  PhotometricCorrection correction{.grid = grid};
-  correction.gains.resize(grid.count());
-  correction.overall.resize(grid.count());
-  for (int quantity = 0; quantity <= channels; ++quantity) {
-    const std::vector<Ratio>& ratios = all[quantity];
-    std::vector<double> logs = spread_from(center, grid.count(), ratios);
-    settle(center, ratios, logs);
-    for (int i = 0; i < grid.count(); ++i) {
-      double& gain = quantity < channels ? correction.gains[i][quantity] : correction.overall[i];
-      gain = std::exp(logs[i]);
-    }
-  }
-  if (channels == 1) {
-    for (auto& gain : correction.gains) gain.fill(gain[0]);
-  }
-  return correction;
-}
-
-namespace {
-
 // Means of views that differ by less speak for gains that do, too.
 constexpr double kNotableMeans = 0.01;
 constexpr int kPixelStep = 8;  // of the means
@@ -367,43 +338,6 @@ std::array<double, 3> ratios_of_means(const LightField& lf, ViewIndex view, View
   return gains;
 }
 
-}  // namespace
-
-bool have_notable_means(const LightField& lf, const Progress& progress) {
-  return std::visit(
-      [&](const auto& stack) {
-        const double center = mean_of(stack, lf.center());
-        for (int i = 0; i < lf.grid().count(); ++i) {
-          progress.check();
-          // The disk reads while the view before is looked at.
-          if (i + 1 < lf.grid().count()) lf.fetch_samples(lf.grid().view_at(i + 1), 0, lf.height());
-          const double mean = mean_of(stack, lf.grid().view_at(i));
-          forget_view(stack, lf.grid().view_at(i));
-          if (!(std::abs(mean - center) <= kNotableMeans * center)) return true;
-        }
-        return false;
-      },
-      lf.samples());
-}
-
-PhotometricCorrection gains_of_means(const LightField& lf, ViewIndex reference,
-                                     const Progress& progress) {
-  const GridShape grid = lf.grid();
-  PhotometricCorrection correction{.grid = grid};
-  correction.gains.assign(grid.count(), {1, 1, 1});
-  const Image<float> here = lf.view_as_float(reference);
-  parallel_for(grid.count(), progress, [&](int i) {
-    correction.gains[i] = ratios_of_means(lf, grid.view_at(i), reference, here);
-    lf.forget_samples();
-  });
-  if (unsteadiness(correction) < kUnlikelyMeans) {
-    correction.gains.assign(grid.count(), {1, 1, 1});
-  }
-  return correction;
-}
-
-namespace {
-
 bool keeps_brightness(const LightField& lf) {
   const ParameterValue* const kept = lf.info().reading.find(kKeepBrightness);
   return kept != nullptr && std::get<bool>(*kept);
@@ -454,6 +388,64 @@ double spread_of_gains(const PhotometricCorrection& correction) {
 }
 
 }  // namespace
+
+PhotometricCorrection measure_view_gains(const LightField::Samples& samples,
+                                         const ViewStack<std::uint8_t>& valid,
+                                         const Progress& progress, GainBlocks blocks) {
+  const GridShape grid = grid_of(samples);
+  const int channels = std::visit([](const auto& stack) { return stack.channels(); }, samples);
+  const Ratios all = find_ratios(samples, valid, progress, blocks);
+  const int center = grid.center().v * grid.u + grid.center().u;
+  PhotometricCorrection correction{.grid = grid};
+  correction.gains.resize(grid.count());
+  correction.overall.resize(grid.count());
+  for (int quantity = 0; quantity <= channels; ++quantity) {
+    const std::vector<Ratio>& ratios = all[quantity];
+    std::vector<double> logs = spread_from(center, grid.count(), ratios);
+    settle(center, ratios, logs);
+    for (int i = 0; i < grid.count(); ++i) {
+      double& gain = quantity < channels ? correction.gains[i][quantity] : correction.overall[i];
+      gain = std::exp(logs[i]);
+    }
+  }
+  if (channels == 1) {
+    for (auto& gain : correction.gains) gain.fill(gain[0]);
+  }
+  return correction;
+}
+
+bool have_notable_means(const LightField& lf, const Progress& progress) {
+  return std::visit(
+      [&](const auto& stack) {
+        const double center = mean_of(stack, lf.center());
+        for (int i = 0; i < lf.grid().count(); ++i) {
+          progress.check();
+          // The disk reads while the view before is looked at.
+          if (i + 1 < lf.grid().count()) lf.fetch_samples(lf.grid().view_at(i + 1), 0, lf.height());
+          const double mean = mean_of(stack, lf.grid().view_at(i));
+          forget_view(stack, lf.grid().view_at(i));
+          if (!(std::abs(mean - center) <= kNotableMeans * center)) return true;
+        }
+        return false;
+      },
+      lf.samples());
+}
+
+PhotometricCorrection gains_of_means(const LightField& lf, ViewIndex reference,
+                                     const Progress& progress) {
+  const GridShape grid = lf.grid();
+  PhotometricCorrection correction{.grid = grid};
+  correction.gains.assign(grid.count(), {1, 1, 1});
+  const Image<float> here = lf.view_as_float(reference);
+  parallel_for(grid.count(), progress, [&](int i) {
+    correction.gains[i] = ratios_of_means(lf, grid.view_at(i), reference, here);
+    lf.forget_samples();
+  });
+  if (unsteadiness(correction) < kUnlikelyMeans) {
+    correction.gains.assign(grid.count(), {1, 1, 1});
+  }
+  return correction;
+}
 
 std::shared_ptr<const EvenLightField> EvenViews::of(const LightField& lf,
                                                     const Progress& progress) {

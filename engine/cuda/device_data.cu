@@ -27,6 +27,14 @@ Kept& kept() {
   return *kept;
 }
 
+constexpr int kThreads = 256;
+
+__global__ __launch_bounds__(kThreads) void clamp_values(float* values, long count, float min,
+                                                         float max) {
+  const long at = static_cast<long>(blockIdx.x) * kThreads + threadIdx.x;
+  if (at < count) values[at] = fminf(fmaxf(values[at], min), max);
+}
+
 }  // namespace
 
 DeviceLightField::DeviceLightField(const LightField& lf, const Progress& progress) {
@@ -51,18 +59,6 @@ std::shared_ptr<const DeviceLightField> on_device(const LightField& lf, const Pr
   }
   return cache.light_field;
 }
-
-namespace {
-
-constexpr int kThreads = 256;
-
-__global__ __launch_bounds__(kThreads) void clamp_values(float* values, long count, float min,
-                                                         float max) {
-  const long at = static_cast<long>(blockIdx.x) * kThreads + threadIdx.x;
-  if (at < count) values[at] = fminf(fmaxf(values[at], min), max);
-}
-
-}  // namespace
 
 DeviceMaps::DeviceMaps(const ViewStack<float>& like) : memory_(std::make_unique<MapMemory>(like)) {}
 DeviceMaps::~DeviceMaps() = default;

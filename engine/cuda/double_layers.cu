@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/cuda/double_layers.h"
+#include "engine/cuda/orientations.h"
 
 #include "engine/core/indices.h"
 #include "engine/cuda/device.cuh"

@@ -3,7 +3,7 @@
 
 #include "engine/cuda/device.cuh"
 #include "engine/cuda/device_data.cuh"
-#include "engine/cuda/double_layers.h"
+#include "engine/cuda/orientations.h"
 
 #include <cstdint>
 

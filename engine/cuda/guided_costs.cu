@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/cuda/guided_costs.cuh"
+#include "engine/cuda/matching_costs.cuh"
 
 #include "engine/cuda/device.cuh"
 #include "engine/disparity/kernels/shared_constants.h"

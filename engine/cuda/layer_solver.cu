@@ -190,7 +190,7 @@ __global__ __launch_bounds__(kScoreThreads) void judge(PackedField field, Mapped
   maps.weight[at] = fit + kOneLayerWeight;
 }
 
-// Whether rays see two layers or one, as LayerScore (engine/disparity/layer_decision.h), of
+// Whether rays see two layers or one, as LayerScore (engine/disparity/epi_two_layer.h), of
 // these views of the field. Throws DeviceFailure.
 void score_layers(const PackedField& field, const MappedViews& views, float decision,
                   float strictness, const ScoredMaps& maps, const DeviceStream& stream) {

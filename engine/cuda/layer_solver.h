@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "engine/core/image.h"
 #include "engine/core/light_field.h"
 #include "engine/core/progress.h"
 #include "engine/core/view_stack.h"
-#include "engine/cuda/double_layers.h"
+#include "engine/cuda/device.h"
+#include "engine/cuda/orientations.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace episcope::cuda {
@@ -57,5 +60,51 @@ struct LayerOutcome {
                                         const LayerSmoothing& smoothing, const RawLayers& raw,
                                         DeviceMaps fit, const LayerResults& results,
                                         const Progress& progress);
+
+/// A LiftedProblem (engine/solvers/simplex_labeling.h) on the device, and when to stop.
+struct LiftedTask {
+  SharedVolume cost;         ///< `[y][label][x]`, at most 512 labels.
+  ImageView<const float> g;  ///< `[y][x]`, on the host, contiguous.
+  double smoothness = 0;
+  int max_iterations = 1000;
+  double gap = 1e-3;
+  int check_every = 10;
+};
+
+/// A LiftedResult.
+struct LiftedLabels {
+  Image<int> labels;
+  int iterations = 0;
+  double energy = 0, bound = 0;
+  bool converged = false;
+};
+
+/// As solve_lifted_labeling: the same iterations, energy, bound and gap; takes 6 floats per pixel
+/// and label besides the costs. `report` gets iterations and gap whenever the gap is checked.
+/// Throws DeviceFailure, Cancelled.
+[[nodiscard]] LiftedLabels solve_lifted(const LiftedTask& task,
+                                        const std::function<void(int, double)>& report,
+                                        const Progress& progress);
+
+/// MessageProblem on the device (engine/solvers/message_labeling.h).
+struct MessageTask {
+  const DeviceVolume& cost;  ///< `[y][label][x]`, at most 512 labels.
+  ImageView<const float> across, down;
+  float slope = 1;
+  float most = 1;
+};
+
+/// As MessageResult.
+struct MessageAnswer {
+  Image<int> labels;
+  int iterations = 0;
+  double energy = 0;
+  double bound = 0;
+};
+
+/// `solve_by_messages` on the device: rows follow one another a pixel apart. Throws DeviceFailure,
+/// Cancelled.
+[[nodiscard]] MessageAnswer solve_by_messages(const MessageTask& task, int iterations,
+                                              const Progress& progress);
 
 }  // namespace episcope::cuda

@@ -3,7 +3,7 @@
 
 #include "engine/core/progress.h"
 #include "engine/cuda/device_data.cuh"
-#include "engine/cuda/line_check.h"
+#include "engine/cuda/orientations.h"
 #include "engine/disparity/kernels/shared_constants.h"
 
 #include <cstdint>

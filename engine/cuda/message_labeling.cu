@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/cuda/message_labeling.h"
+#include "engine/cuda/layer_solver.h"
 
 #include "engine/cuda/device.cuh"
 #include "engine/solvers/shared_constants.h"

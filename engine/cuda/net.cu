@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/cuda/net.h"
 
-#include "engine/cuda/net_evidence.cuh"
 #include "engine/cuda/net_layers.cuh"
 
 #include <algorithm>

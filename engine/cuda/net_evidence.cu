@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/cuda/net_evidence.cuh"
+#include "engine/cuda/net_layers.cuh"
 
 #include "engine/cuda/device_data.cuh"
 

@@ -4,7 +4,7 @@
 #include "engine/core/image.h"
 #include "engine/core/indices.h"
 #include "engine/core/light_field.h"
-#include "engine/disparity/kernels/net_constants.h"
+#include "engine/disparity/kernels/shared_constants.h"
 
 #include <array>
 #include <vector>

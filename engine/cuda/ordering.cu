@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/cuda/ordering.h"
+#include "engine/cuda/tv_l2.h"
 
 #include "engine/core/indices.h"
 #include "engine/cuda/device.cuh"

@@ -4,7 +4,6 @@
 #include "engine/cuda/device.cuh"
 #include "engine/cuda/device_data.cuh"
 #include "engine/cuda/host_pages.h"
-#include "engine/cuda/orientations.cuh"
 #include "engine/cuda/tensor.cuh"
 
 #include <algorithm>
@@ -151,28 +150,6 @@ __global__ __launch_bounds__(kTile* kRows) void average(DeviceSamples samples, A
     write_at(samples, band.band, wanted.first + view, y, x, {found.x, found.y}, settings, maps);
   }
 }
-
-}  // namespace
-
-void average_tensors(const DeviceSamples& samples, const AveragedBand& band, WantedViews wanted,
-                     const float* best, const AverageSettings& settings, const MapPointers& maps,
-                     const DeviceStream& stream) {
-  const bool is_vertical = band.band.is_vertical;
-  const dim3 grid(blocks_for(band.band.length, kTile), blocks_for(band.count, kTile),
-                  static_cast<unsigned>(wanted.count()));
-  const double rays = static_cast<double>(band.count) * band.band.length * wanted.count();
-  const double maps_moved = settings.outcome == Outcome::MergedWithStored ? 4 : 2;
-  const KernelWork work{is_vertical ? "averages, vertical" : "averages, horizontal",
-                        rays * (3 + maps_moved) * sizeof(float),
-                        rays * (settings.across.count * 18.0 + 20)};
-  launch(stream, work, [&] {
-    const auto kernel = is_vertical ? average<true> : average<false>;
-    kernel<<<grid, dim3(kTile, kRows), 0, stream.get()>>>(samples, band, wanted, best, settings,
-                                                          maps);
-  });
-}
-
-namespace {
 
 // Of the free memory, what a band may take, and at most.
 constexpr double kShare = 0.5;
@@ -350,6 +327,24 @@ AverageSettings averages_of(const TensorSettings& settings) {
 }
 
 }  // namespace
+
+void average_tensors(const DeviceSamples& samples, const AveragedBand& band, WantedViews wanted,
+                     const float* best, const AverageSettings& settings, const MapPointers& maps,
+                     const DeviceStream& stream) {
+  const bool is_vertical = band.band.is_vertical;
+  const dim3 grid(blocks_for(band.band.length, kTile), blocks_for(band.count, kTile),
+                  static_cast<unsigned>(wanted.count()));
+  const double rays = static_cast<double>(band.count) * band.band.length * wanted.count();
+  const double maps_moved = settings.outcome == Outcome::MergedWithStored ? 4 : 2;
+  const KernelWork work{is_vertical ? "averages, vertical" : "averages, horizontal",
+                        rays * (3 + maps_moved) * sizeof(float),
+                        rays * (settings.across.count * 18.0 + 20)};
+  launch(stream, work, [&] {
+    const auto kernel = is_vertical ? average<true> : average<false>;
+    kernel<<<grid, dim3(kTile, kRows), 0, stream.get()>>>(samples, band, wanted, best, settings,
+                                                          maps);
+  });
+}
 
 // Vertical EPIs come first, so that rows of views are done one after the other.
 void find_orientations_on_device(const DeviceSamples& samples, const TensorSettings& settings,

@@ -7,6 +7,8 @@
 #include "engine/cuda/device_data.h"
 #include "engine/disparity/kernels/shared_constants.h"
 
+#include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace episcope::cuda {
@@ -57,5 +59,88 @@ void find_orientations(const LightField& light_field, const TensorSettings& sett
 /// Leaves the estimates on the device.
 void find_orientations(const LightField& light_field, const TensorSettings& settings,
                        DeviceMaps& maps, const Progress& progress);
+
+/// What `check_lines` does; see LineCheck.
+struct LineCheckSteps {
+  bool chooses_sides = true;
+  bool reduces_confidence = true;
+};
+
+/// Changes disparity and confidence of the views that both stacks cover, the center view among
+/// them, as check_lines of the CPU. Throws DeviceFailure, Cancelled.
+void check_lines(const LightField& light_field, const LineCheckSteps& steps,
+                 ViewStack<float>& disparity, ViewStack<float>& confidence,
+                 const Progress& progress);
+
+/// Checks maps that are on the device.
+void check_lines(const LightField& light_field, const LineCheckSteps& steps, DeviceMaps& maps,
+                 const Progress& progress);
+
+/// Replaces the disparity of rays that other views see through, as replace_occluded of the CPU;
+/// both stacks cover all views. Throws DeviceFailure, Cancelled.
+void replace_occluded(const LightField& light_field, ViewStack<float>& disparity,
+                      const ViewStack<float>& confidence, const Progress& progress);
+
+/// A small odd filter, centerd: out(n) = Σ values[i]·in(n + i − radius).
+struct DoubleTaps {
+  static constexpr int kMost = 13;
+  int radius = 0;
+  float values[kMost] = {};
+};
+
+/// The filters of one direction of EPIs; see SecondOrderFilters.
+struct DoublePass {
+  bool is_horizontal = true;
+  DoubleTaps along[3];  ///< One radius.
+  DoubleTaps views[3];  ///< One radius.
+  DoubleTaps integrate, across;
+  float scale[3] = {1, 1, 1};
+  float mix = 0;
+  float contrast_energy = 0, noise_energy = 0;
+  int first_product = 0, last_product = 0;  ///< Views [first, last) where derivatives exist.
+  std::vector<float> row_weights;           ///< `[row][product row]`
+  int tile_height = 1, tile_width = 1;      ///< Of the tiles that are counted,
+  int tile_stride = 1;                      ///< of which one of so many has results.
+};
+
+/// Where two disparities are looked for; see DoubleShear.
+struct DoubleShears {
+  std::vector<int> steps;
+  float limit = 0;
+  float min = 0, max = 0;
+  float min_distance = 0;
+};
+
+/// Where the results go, stacks of the same views; `confidence` in 1/255.
+struct DoubleResults {
+  ViewStack<float>& near;
+  ViewStack<float>& far;
+  ViewStack<std::uint8_t>& confidence;
+};
+
+struct LayerMemory;
+
+/// Two disparities and their confidence on the device, of the views of `like`, computed on its
+/// stream; `like` must live as long. Move-only.
+class DeviceLayers {
+ public:
+  /// As below. Throws DeviceFailure, Cancelled.
+  DeviceLayers(const LightField& light_field, const std::vector<DoublePass>& passes,
+               const DoubleShears& shears, DeviceMaps& like, const Progress& progress);
+  ~DeviceLayers();
+  DeviceLayers(DeviceLayers&&) noexcept;
+
+  /// For the steps that follow.
+  [[nodiscard]] LayerMemory& memory() { return *memory_; }
+
+ private:
+  std::unique_ptr<LayerMemory> memory_;
+};
+
+/// `measure_double_layers` on the device: passes are merged one after the other. Throws
+/// DeviceFailure, Cancelled.
+void measure_double_layers(const LightField& light_field, const std::vector<DoublePass>& passes,
+                           const DoubleShears& shears, const DoubleResults& results,
+                           const Progress& progress);
 
 }  // namespace episcope::cuda

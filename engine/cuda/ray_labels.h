@@ -7,6 +7,7 @@
 #include "engine/core/view_stack.h"
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -51,10 +52,44 @@ struct RayLabelsAnswer {
   int iterations = 0;
 };
 
-/// Writes the labels of all views, 0 … L − 1, as `smooth_rays` and `smooth_views`
+/// Writes the labels of all views, 0 … L − 1, as Regularizer::Rayspace and ::View
 /// (engine/labeling/rays) do on the CPU; there must be two or more labels. Throws DeviceFailure,
 /// Cancelled.
 [[nodiscard]] RayLabelsAnswer label_rays(const RayLabelsTask& task, const Progress& progress,
                                          ViewStack<std::int32_t>& labels);
+
+/// A pixel moves to node `next + (value > threshold)` of its tree; a leaf leads to itself.
+struct TreeNode {
+  float threshold;
+  std::uint16_t feature, next;
+};
+
+/// A flattened forest, borrowed: FlatForest of engine/labeling/forest_kernel.h.
+struct ForestTables {
+  std::span<const TreeNode> nodes;
+  std::span<const int> roots;     ///< First node of each tree.
+  std::span<const int> votes_of;  ///< Row of `votes` for each node that is a leaf.
+  std::span<const float> votes;   ///< `[leaf][label]`, `pitch` apart.
+  int pitch = 0;                  ///< A multiple of 4.
+};
+
+/// A forest on the device. May vote for several threads at once.
+class DeviceForest {
+ public:
+  /// Copies the forest to the device. Throws DeviceFailure, Cancelled.
+  DeviceForest(const ForestTables& forest, const Progress& progress);
+  ~DeviceForest();
+  DeviceForest(const DeviceForest&) = delete;
+  DeviceForest& operator=(const DeviceForest&) = delete;
+
+  /// The mean vote of all trees for every pixel of a view, `[y][x][label]`, `pitch` apart, into
+  /// `votes`; `features` `[y][feature][x]`. The same bits as Forest::predict_rows. Throws
+  /// DeviceFailure, Cancelled.
+  void vote(VolumeView<const float> features, const Progress& progress, float* votes) const;
+
+ private:
+  struct Memory;
+  std::unique_ptr<Memory> memory_;
+};
 
 }  // namespace episcope::cuda

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/cuda/simplex_batch.cuh"
 
 #include "engine/cuda/device.cuh"
 #include "engine/cuda/simplex_moves.cuh"
@@ -103,37 +102,6 @@ __global__ void gather(SimplexFields from, const std::int32_t* places, SimplexFi
   }
 }
 
-}  // namespace
-
-void halve_problems(const SimplexFields& fine, const SimplexFields& coarse,
-                    const DeviceStream& stream) {
-  const auto values = static_cast<double>(fine.size());
-  launch(stream, {"labels: halve", 5 * values, values},
-         [&] { halve<<<blocks(coarse), kThreads, 0, stream.get()>>>(fine, coarse); });
-}
-
-void begin_from_cheapest(const SimplexFields& fields, const DeviceStream& stream) {
-  const auto values = static_cast<double>(fields.size());
-  launch(stream, {"labels: cheapest", 24 * values, values},
-         [&] { take_cheapest<<<blocks(fields), kThreads, 0, stream.get()>>>(fields); });
-}
-
-void begin_from_coarse(const SimplexFields& coarse, const SimplexFields& fine,
-                       const DeviceStream& stream) {
-  const auto values = static_cast<double>(fine.size());
-  launch(stream, {"labels: from coarse", 25 * values, 4 * values},
-         [&] { spread<<<blocks(fine), kThreads, 0, stream.get()>>>(coarse, fine); });
-}
-
-void begin_from_moved(const SimplexFields& from, const std::int32_t* places,
-                      const SimplexFields& to, const DeviceStream& stream) {
-  const auto values = static_cast<double>(to.size());
-  launch(stream, {"labels: from last view", 40 * values, 0},
-         [&] { gather<<<blocks(to), kThreads, 0, stream.get()>>>(from, places, to); });
-}
-
-namespace {
-
 __global__ void find_near(SimplexFields fields, const std::int32_t* labels, float behind,
                           SimplexRace race) {
   const int x = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
@@ -218,7 +186,49 @@ __global__ void take_labels(SimplexFields fields, const std::int32_t* labels,
   moved[at] = places[at] < 0 ? labels[at] : labels[fields.pixel(problem, 0, 0) + places[at]];
 }
 
+// Floats of each unknown: costs, ahead, u and its duals; what is taken over is u and duals.
+constexpr std::size_t kKeptFloats = 1 + kPairKinds;
+constexpr std::size_t kFloats = 2 + kKeptFloats;
+
+double gap_of(const SimplexAnswer& answer) {
+  const double difference = answer.relaxed - answer.bound;
+  return difference == 0 ? 0 : difference / std::abs(answer.relaxed);
+}
+
+// u and duals lie one after the other, `size` apart.
+void place_unknowns(float* memory, std::size_t size, SimplexFields& fields) {
+  fields.u = memory;
+  for (std::size_t k = 0; k < kPairKinds; ++k) fields.duals[k] = memory + (k + 1) * size;
+}
+
 }  // namespace
+
+void halve_problems(const SimplexFields& fine, const SimplexFields& coarse,
+                    const DeviceStream& stream) {
+  const auto values = static_cast<double>(fine.size());
+  launch(stream, {"labels: halve", 5 * values, values},
+         [&] { halve<<<blocks(coarse), kThreads, 0, stream.get()>>>(fine, coarse); });
+}
+
+void begin_from_cheapest(const SimplexFields& fields, const DeviceStream& stream) {
+  const auto values = static_cast<double>(fields.size());
+  launch(stream, {"labels: cheapest", 24 * values, values},
+         [&] { take_cheapest<<<blocks(fields), kThreads, 0, stream.get()>>>(fields); });
+}
+
+void begin_from_coarse(const SimplexFields& coarse, const SimplexFields& fine,
+                       const DeviceStream& stream) {
+  const auto values = static_cast<double>(fine.size());
+  launch(stream, {"labels: from coarse", 25 * values, 4 * values},
+         [&] { spread<<<blocks(fine), kThreads, 0, stream.get()>>>(coarse, fine); });
+}
+
+void begin_from_moved(const SimplexFields& from, const std::int32_t* places,
+                      const SimplexFields& to, const DeviceStream& stream) {
+  const auto values = static_cast<double>(to.size());
+  launch(stream, {"labels: from last view", 40 * values, 0},
+         [&] { gather<<<blocks(to), kThreads, 0, stream.get()>>>(from, places, to); });
+}
 
 SimplexRaceMemory::SimplexRaceMemory(const SimplexFields& fields, const DeviceStream& stream) {
   race_.across = static_cast<int>(blocks_for(fields.width, kRaceColumns));
@@ -253,25 +263,6 @@ void move_labels(const SimplexFields& fields, const std::int32_t* labels,
     take_labels<<<blocks(fields), kThreads, 0, stream.get()>>>(fields, labels, places, moved);
   });
 }
-
-namespace {
-
-// Floats of each unknown: costs, ahead, u and its duals; what is taken over is u and duals.
-constexpr std::size_t kKeptFloats = 1 + kPairKinds;
-constexpr std::size_t kFloats = 2 + kKeptFloats;
-
-double gap_of(const SimplexAnswer& answer) {
-  const double difference = answer.relaxed - answer.bound;
-  return difference == 0 ? 0 : difference / std::abs(answer.relaxed);
-}
-
-// u and duals lie one after the other, `size` apart.
-void place_unknowns(float* memory, std::size_t size, SimplexFields& fields) {
-  fields.u = memory;
-  for (std::size_t k = 0; k < kPairKinds; ++k) fields.duals[k] = memory + (k + 1) * size;
-}
-
-}  // namespace
 
 std::size_t SimplexBatch::bytes_of_problem(int height, int layers, int width) {
   const std::size_t pixels = static_cast<std::size_t>(height) * static_cast<std::size_t>(width);

@@ -18,6 +18,92 @@
 namespace episcope::cuda {
 namespace {
 
+// Iterations between two looks whether the run is to end.
+constexpr int kTgvCheckEvery = 25;
+
+// What the solver holds, planes `[y][x]`: q is the dual of ∇u − p, r of ℰp (xx, yy, and xy twice).
+struct Planes {
+  int height = 0, width = 0;
+  const float* f = nullptr;
+  const float* w = nullptr;
+  const float* g = nullptr;
+  float *u, *ahead_u, *px, *py, *ahead_px, *ahead_py, *qx, *qy, *rxx, *ryy, *rxy;
+};
+
+struct Place {
+  int y, x;
+  long at;
+  bool is_inside;
+};
+__device__ Place place_of(const Planes& planes) {
+  const int x = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
+  const int y = static_cast<int>(blockIdx.y * blockDim.y + threadIdx.y);
+  return {y, x, static_cast<long>(y) * planes.width + x, x < planes.width && y < planes.height};
+}
+
+__global__ void move_duals(Planes planes, float bend) {
+  const Place place = place_of(planes);
+  if (!place.is_inside) return;
+  const long at = place.at, width = planes.width;
+  const float limit = planes.g[at];
+  const float here = planes.ahead_u[at];
+  const float px = planes.ahead_px[at], py = planes.ahead_py[at];
+  float qx = planes.qx[at], qy = planes.qy[at];
+  if (place.x + 1 < planes.width) qx += kTgvStep * (planes.ahead_u[at + 1] - here - px);
+  if (place.y + 1 < planes.height) qy += kTgvStep * (planes.ahead_u[at + width] - here - py);
+  const float shrink = 1 / fmaxf(1.0F, sqrtf(qx * qx + qy * qy) / limit);
+  planes.qx[at] = qx * shrink;
+  planes.qy[at] = qy * shrink;
+  const long left = place.x > 0 ? at - 1 : at, above = place.y > 0 ? at - width : at;
+  const float xx = planes.rxx[at] + kTgvStep * (px - planes.ahead_px[left]);
+  const float yy = planes.ryy[at] + kTgvStep * (py - planes.ahead_py[above]);
+  const float xy =
+      planes.rxy[at] + kTgvStep * 0.5F * (px - planes.ahead_px[above] + py - planes.ahead_py[left]);
+  const float size = sqrtf(xx * xx + yy * yy + 2 * xy * xy);
+  const float shrink_r = 1 / fmaxf(1.0F, size / (bend * limit));
+  planes.rxx[at] = xx * shrink_r;
+  planes.ryy[at] = yy * shrink_r;
+  planes.rxy[at] = xy * shrink_r;
+}
+
+__global__ void move_unknowns(Planes planes, float inverse_lambda) {
+  const Place place = place_of(planes);
+  if (!place.is_inside) return;
+  const long at = place.at, width = planes.width;
+  const bool has_right = place.x + 1 < planes.width, has_below = place.y + 1 < planes.height;
+  const bool has_left = place.x > 0, has_above = place.y > 0;
+  const float qx = has_right ? planes.qx[at] : 0.0F, qy = has_below ? planes.qy[at] : 0.0F;
+  float divergence = qx;
+  if (has_left) divergence -= planes.qx[at - 1];
+  divergence += qy;
+  if (has_above) divergence -= planes.qy[at - width];
+  const float c = kTgvStep * inverse_lambda * planes.w[at], u = planes.u[at];
+  const float moved = (u + kTgvStep * divergence + c * planes.f[at]) / (1 + c);
+  planes.ahead_u[at] = 2 * moved - u;
+  planes.u[at] = moved;
+  // Of r, minus the adjoint of ℰ: backward differences, none across the first row and column.
+  const auto along = [&](const float* r) {
+    return (has_right ? r[at + 1] : 0.0F) - (has_left ? r[at] : 0.0F);
+  };
+  const auto down = [&](const float* r) {
+    return (has_below ? r[at + width] : 0.0F) - (has_above ? r[at] : 0.0F);
+  };
+  const float old_x = planes.px[at], old_y = planes.py[at];
+  const float px = old_x + kTgvStep * (qx + (along(planes.rxx) + down(planes.rxy)));
+  const float py = old_y + kTgvStep * (qy + (along(planes.rxy) + down(planes.ryy)));
+  planes.ahead_px[at] = 2 * px - old_x;
+  planes.ahead_py[at] = 2 * py - old_y;
+  planes.px[at] = px;
+  planes.py[at] = py;
+}
+
+DeviceArray<float> upload_or_ones(ImageView<const float> image, std::size_t size,
+                                  const DeviceStream& stream, const Progress& progress) {
+  if (!image.empty()) return upload(image.data, size, stream, progress);
+  const Image<float> ones(1, static_cast<int>(size), 1, 1.0F);
+  return upload(ones.data(), size, stream, progress);
+}
+
 constexpr int kCheckEvery = TvL2Options{}.check_every;
 
 // The data term from images `[view][y][x]`.
@@ -67,7 +153,164 @@ struct Unload {
   }
 };
 
+// Of the free memory, what the solver may take.
+constexpr double kShare = 0.8;
+
+// Views that fit at once, at least one.
+int views_at_once(const DeviceSamples& samples, int wanted) {
+  std::size_t free = 0, total = 0;
+  check(cudaMemGetInfo(&free, &total));
+  const std::size_t pixels = static_cast<std::size_t>(samples.height) * samples.width;
+  const std::size_t each =
+      TvL2Grids::bytes_per_view(samples.height, samples.width) + 2 * pixels * sizeof(float);
+  const auto fit = static_cast<std::size_t>(kShare * static_cast<double>(free)) / each;
+  return std::clamp(static_cast<int>(std::min<std::size_t>(fit, 1 << 20)), 1, wanted);
+}
+
+// Which views kernels work on: block z is number `first` + z of the mapped ones.
+struct Views {
+  DeviceSamples samples;
+  MappedViews mapped;
+  int first = 0;
+
+  [[nodiscard]] __device__ long pixel(int number, int y, int x) const {
+    const int at = first + number;
+    return samples.pixel(mapped.first.v + at / mapped.grid.u, mapped.first.u + at % mapped.grid.u,
+                         y, x);
+  }
+};
+
+__device__ long map_at(const DeviceSamples& samples, int number, int y, int x) {
+  return (static_cast<long>(number) * samples.height + y) * samples.width + x;
+}
+
+// exp(−β |∇I|); 1 where an invalid pixel is part of the gradient.
+__global__ void fill_edges(Views views, float strength, float* edges) {
+  const DeviceSamples& samples = views.samples;
+  const int x = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
+  const int y = static_cast<int>(blockIdx.y * blockDim.y + threadIdx.y);
+  if (x >= samples.width || y >= samples.height) return;
+  const int number = static_cast<int>(blockIdx.z);
+  const long here = views.pixel(number, y, x);
+  const long right = views.pixel(number, y, min(x + 1, samples.width - 1));
+  const long below = views.pixel(number, min(y + 1, samples.height - 1), x);
+  float energy = 0;
+  for (int c = 0; c < samples.channels; ++c) {
+    const float own = samples.at(here, c);
+    const float dx = samples.at(right, c) - own, dy = samples.at(below, c) - own;
+    energy += dx * dx + dy * dy;
+  }
+  const bool is_valid =
+      samples.valid == nullptr ||
+      (samples.valid[here] != 0 && samples.valid[right] != 0 && samples.valid[below] != 0);
+  const float weight = strength == 0 ? 1.0F : expf(-strength * sqrtf(energy));
+  edges[map_at(samples, number, y, x)] = is_valid ? weight : 1.0F;
+}
+
+// r^power, at least the minimum.
+struct Power {
+  double power = 1;
+  float minimum = 0;
+
+  [[nodiscard]] __device__ float operator()(float r) const {
+    const int whole = static_cast<int>(power);
+    float raised = 1;
+    if (whole == power) {
+      for (int i = 0; i < whole; ++i) raised *= r;
+    } else {
+      raised = powf(r, static_cast<float>(power));
+    }
+    return fmaxf(raised, minimum);
+  }
+};
+
+__global__ void fill_data(const float* confidence, Power power, long count, float* data) {
+  const long at = static_cast<long>(blockIdx.x) * blockDim.x + threadIdx.x;
+  if (at < count) data[at] = power(confidence[at]);
+}
+
+// local_noise_variance of a map at a pixel: in the direction in which it is least, the mean square
+// of second differences over a window.
+struct MapNoise {
+  const float* map;
+  int height = 0, width = 0;
+
+  [[nodiscard]] __device__ float square(int y, int x, int way_y, int way_x) const {
+    const int row = min(max(y, 1), height - 2), column = min(max(x, 1), width - 2);
+    const float* const here = map + static_cast<long>(row) * width + column;
+    const long step = static_cast<long>(way_y) * width + way_x;
+    const float d = here[-step] - 2 * here[0] + here[step];
+    return d * d / kSecondDifference;
+  }
+  [[nodiscard]] __device__ float window(int y, int x, int way_y, int way_x) const {
+    const int top = max(y - kNoiseRadius, 0), bottom = min(y + kNoiseRadius, height - 1);
+    const int left = max(x - kNoiseRadius, 0), right = min(x + kNoiseRadius, width - 1);
+    float sum = 0;
+    for (int i = left; i <= right; ++i) {
+      for (int j = top; j <= bottom; ++j) sum += square(j, i, way_y, way_x);
+    }
+    return sum / static_cast<float>((right - left + 1) * (bottom - top + 1));
+  }
+  [[nodiscard]] __device__ float operator()(int y, int x) const {
+    if (height < 3 || width < 3) return 0;
+    return fminf(fminf(window(y, x, 0, 1), window(y, x, 1, 0)),
+                 fminf(window(y, x, 1, 1), window(y, x, 1, -1)));
+  }
+};
+
+// More weight where the map is trusted and its noise is less than `noise`: see `denoise`.
+__global__ void raise_steady(DeviceSamples samples, const float* disparity, float noise,
+                             float* data) {
+  const int x = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
+  const int y = static_cast<int>(blockIdx.y * blockDim.y + threadIdx.y);
+  if (x >= samples.width || y >= samples.height) return;
+  const long at = map_at(samples, static_cast<int>(blockIdx.z), y, x);
+  const MapNoise variance{disparity + map_at(samples, static_cast<int>(blockIdx.z), 0, 0),
+                          samples.height, samples.width};
+  const float own = sqrtf(variance(y, x));
+  const float more = fmaxf(noise / fmaxf(own, noise / kMostSteadyGain), 1.0F) - 1;
+  data[at] *= 1 + more * fminf(data[at] / kTrustedWeight, 1.0F);
+}
+
+constexpr int kIterations = TvL2Options{}.max_iterations;
+constexpr double kGap = TvL2Options{}.gap;
+
 }  // namespace
+
+void solve_tgv_l2(Image<float>& f, const TgvTask& task, int iterations, const Progress& progress) {
+  constexpr int kPlanes = 11;
+  const DeviceStream stream;
+  const std::size_t size = f.size();
+  const auto observed = upload(f.data(), size, stream, progress);
+  const auto w = upload_or_ones(task.w, size, stream, progress);
+  const auto g = upload_or_ones(task.g, size, stream, progress);
+  DeviceArray<float> memory(kPlanes * size, stream);
+  memory.clear();
+  const auto plane = [&](int number) { return memory.data() + number * size; };
+  const Planes planes{f.height(), f.width(), observed.data(), w.data(), g.data(), plane(0),
+                      plane(1),   plane(2),  plane(3),        plane(4), plane(5), plane(6),
+                      plane(7),   plane(8),  plane(9),        plane(10)};
+  for (float* const start : {planes.u, planes.ahead_u}) {
+    check(cudaMemcpyAsync(start, observed.data(), observed.byte_size(), cudaMemcpyDeviceToDevice,
+                          stream.get()));
+  }
+  const dim3 block(32, 8);
+  const dim3 grid(blocks_for(f.width(), 32), blocks_for(f.height(), 8));
+  const auto pixels = static_cast<double>(size);
+  for (int i = 0; i < iterations && !progress.finish_requested(); ++i) {
+    launch(stream, {"tgv: duals", pixels * 56, pixels * 50}, [&] {
+      move_duals<<<grid, block, 0, stream.get()>>>(planes, static_cast<float>(task.bend));
+    });
+    launch(stream, {"tgv: unknowns", pixels * 72, pixels * 40}, [&] {
+      move_unknowns<<<grid, block, 0, stream.get()>>>(planes, static_cast<float>(1 / task.lambda));
+    });
+    if (i % kTgvCheckEvery != kTgvCheckEvery - 1) continue;
+    stream.wait();
+    progress.check();
+    progress.report(static_cast<double>(i + 1) / iterations);
+  }
+  download_bytes(f.data(), planes.u, size * sizeof(float), stream, progress);
+}
 
 TvL2DeviceSolver::TvL2DeviceSolver(int height, int width, int views, const DeviceStream& stream)
     : stream_(stream), grids_(height, width, views, stream) {
@@ -239,24 +482,6 @@ std::vector<TvL2Outcome> TvL2DeviceSolver::solve(const TvL2Images& problem, int 
   return outcomes_;
 }
 
-namespace {
-
-// Of the free memory, what the solver may take.
-constexpr double kShare = 0.8;
-
-// Views that fit at once, at least one.
-int views_at_once(const DeviceSamples& samples, int wanted) {
-  std::size_t free = 0, total = 0;
-  check(cudaMemGetInfo(&free, &total));
-  const std::size_t pixels = static_cast<std::size_t>(samples.height) * samples.width;
-  const std::size_t each =
-      TvL2Grids::bytes_per_view(samples.height, samples.width) + 2 * pixels * sizeof(float);
-  const auto fit = static_cast<std::size_t>(kShare * static_cast<double>(free)) / each;
-  return std::clamp(static_cast<int>(std::min<std::size_t>(fit, 1 << 20)), 1, wanted);
-}
-
-}  // namespace
-
 std::vector<double> denoise_on_device(const DeviceSamples& samples, const MappedViews& views,
                                       const MapDenoising& denoising, const float* confidence,
                                       float* disparity, const DeviceStream& stream,
@@ -283,115 +508,6 @@ std::vector<double> denoise_on_device(const DeviceSamples& samples, const Mapped
   return gaps;
 }
 
-namespace {
-
-// Which views kernels work on: block z is number `first` + z of the mapped ones.
-struct Views {
-  DeviceSamples samples;
-  MappedViews mapped;
-  int first = 0;
-
-  [[nodiscard]] __device__ long pixel(int number, int y, int x) const {
-    const int at = first + number;
-    return samples.pixel(mapped.first.v + at / mapped.grid.u, mapped.first.u + at % mapped.grid.u,
-                         y, x);
-  }
-};
-
-__device__ long map_at(const DeviceSamples& samples, int number, int y, int x) {
-  return (static_cast<long>(number) * samples.height + y) * samples.width + x;
-}
-
-// exp(−β |∇I|); 1 where an invalid pixel is part of the gradient.
-__global__ void fill_edges(Views views, float strength, float* edges) {
-  const DeviceSamples& samples = views.samples;
-  const int x = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
-  const int y = static_cast<int>(blockIdx.y * blockDim.y + threadIdx.y);
-  if (x >= samples.width || y >= samples.height) return;
-  const int number = static_cast<int>(blockIdx.z);
-  const long here = views.pixel(number, y, x);
-  const long right = views.pixel(number, y, min(x + 1, samples.width - 1));
-  const long below = views.pixel(number, min(y + 1, samples.height - 1), x);
-  float energy = 0;
-  for (int c = 0; c < samples.channels; ++c) {
-    const float own = samples.at(here, c);
-    const float dx = samples.at(right, c) - own, dy = samples.at(below, c) - own;
-    energy += dx * dx + dy * dy;
-  }
-  const bool is_valid =
-      samples.valid == nullptr ||
-      (samples.valid[here] != 0 && samples.valid[right] != 0 && samples.valid[below] != 0);
-  const float weight = strength == 0 ? 1.0F : expf(-strength * sqrtf(energy));
-  edges[map_at(samples, number, y, x)] = is_valid ? weight : 1.0F;
-}
-
-// r^power, at least the minimum.
-struct Power {
-  double power = 1;
-  float minimum = 0;
-
-  [[nodiscard]] __device__ float operator()(float r) const {
-    const int whole = static_cast<int>(power);
-    float raised = 1;
-    if (whole == power) {
-      for (int i = 0; i < whole; ++i) raised *= r;
-    } else {
-      raised = powf(r, static_cast<float>(power));
-    }
-    return fmaxf(raised, minimum);
-  }
-};
-
-__global__ void fill_data(const float* confidence, Power power, long count, float* data) {
-  const long at = static_cast<long>(blockIdx.x) * blockDim.x + threadIdx.x;
-  if (at < count) data[at] = power(confidence[at]);
-}
-
-// local_noise_variance of a map at a pixel: in the direction in which it is least, the mean square
-// of second differences over a window.
-struct MapNoise {
-  const float* map;
-  int height = 0, width = 0;
-
-  [[nodiscard]] __device__ float square(int y, int x, int way_y, int way_x) const {
-    const int row = min(max(y, 1), height - 2), column = min(max(x, 1), width - 2);
-    const float* const here = map + static_cast<long>(row) * width + column;
-    const long step = static_cast<long>(way_y) * width + way_x;
-    const float d = here[-step] - 2 * here[0] + here[step];
-    return d * d / kSecondDifference;
-  }
-  [[nodiscard]] __device__ float window(int y, int x, int way_y, int way_x) const {
-    const int top = max(y - kNoiseRadius, 0), bottom = min(y + kNoiseRadius, height - 1);
-    const int left = max(x - kNoiseRadius, 0), right = min(x + kNoiseRadius, width - 1);
-    float sum = 0;
-    for (int i = left; i <= right; ++i) {
-      for (int j = top; j <= bottom; ++j) sum += square(j, i, way_y, way_x);
-    }
-    return sum / static_cast<float>((right - left + 1) * (bottom - top + 1));
-  }
-  [[nodiscard]] __device__ float operator()(int y, int x) const {
-    if (height < 3 || width < 3) return 0;
-    return fminf(fminf(window(y, x, 0, 1), window(y, x, 1, 0)),
-                 fminf(window(y, x, 1, 1), window(y, x, 1, -1)));
-  }
-};
-
-// More weight where the map is trusted and its noise is less than `noise`: see `denoise`.
-__global__ void raise_steady(DeviceSamples samples, const float* disparity, float noise,
-                             float* data) {
-  const int x = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
-  const int y = static_cast<int>(blockIdx.y * blockDim.y + threadIdx.y);
-  if (x >= samples.width || y >= samples.height) return;
-  const long at = map_at(samples, static_cast<int>(blockIdx.z), y, x);
-  const MapNoise variance{disparity + map_at(samples, static_cast<int>(blockIdx.z), 0, 0),
-                          samples.height, samples.width};
-  const float own = sqrtf(variance(y, x));
-  const float more = fmaxf(noise / fmaxf(own, noise / kMostSteadyGain), 1.0F) - 1;
-  data[at] *= 1 + more * fminf(data[at] / kTrustedWeight, 1.0F);
-}
-
-}  // namespace
-
 void fill_weights(const DeviceSamples& samples, const MappedViews& views, int first, int count,
                   const MapDenoising& denoising, const float* confidence, const float* disparity,
                   const DenoisingWeights& weights, const DeviceStream& stream) {
@@ -415,13 +531,6 @@ void fill_weights(const DeviceSamples& samples, const MappedViews& views, int fi
                                                    weights.data);
   });
 }
-
-namespace {
-
-constexpr int kIterations = TvL2Options{}.max_iterations;
-constexpr double kGap = TvL2Options{}.gap;
-
-}  // namespace
 
 std::vector<double> denoise_maps(const LightField& lf, const MapDenoising& denoising,
                                  const ViewStack<float>& confidence, ViewStack<float>& disparity,

@@ -1,20 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/cuda/device.h"
 #include "engine/cuda/device_data.h"
-#include "engine/cuda/double_layers.h"
-#include "engine/cuda/forest_votes.h"
 #include "engine/cuda/layer_solver.h"
-#include "engine/cuda/lifted_solver.h"
-#include "engine/cuda/line_check.h"
-#include "engine/cuda/message_labeling.h"
 #include "engine/cuda/net.h"
-#include "engine/cuda/ordering.h"
 #include "engine/cuda/orientations.h"
 #include "engine/cuda/ray_labels.h"
 #include "engine/cuda/stereo_matcher.h"
-#include "engine/cuda/tgv_l2.h"
 #include "engine/cuda/tv_l2.h"
-#include "engine/cuda/volume_costs.h"
 
 // What a build without CUDA links in place of all device code.
 

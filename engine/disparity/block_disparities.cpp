@@ -53,28 +53,6 @@ void reduce_valid(const LightField& lf, ViewIndex view, int factor, ImageView<st
   }
 }
 
-}  // namespace
-
-LightField smaller_views(const LightField& lf, int factor, const Progress& progress,
-                         ReducedViews reduced) {
-  const GridShape grid = lf.grid();
-  const int height = lf.height() / factor, width = lf.width() / factor;
-  ViewStack<std::uint16_t> samples(grid, height, width, lf.channels(), {}, allocate_large_zeros);
-  ViewStack<std::uint8_t> valid;
-  if (!lf.valid().empty()) valid = ViewStack<std::uint8_t>(grid, height, width);
-  parallel_for(grid.count(), progress, [&](int i) {
-    const ViewIndex view = samples.view_at(i), center = lf.center();
-    if (reduced == ReducedViews::All || view.v == center.v || view.u == center.u) {
-      reduce(lf, view, factor, samples.view(view));
-    }
-    if (!valid.empty()) reduce_valid(lf, view, factor, valid.view(view));
-    lf.forget_samples();
-  });
-  return {std::move(samples), LightFieldInfo(), std::move(valid)};
-}
-
-namespace {
-
 // Side of a cell, px, and sides of blocks, cells.
 constexpr int kCell = 4;
 constexpr std::array<int, 2> kSides{1, 2};
@@ -292,33 +270,6 @@ bool read_disparity(const std::vector<float>& labels, const std::vector<float>& 
   return true;
 }
 
-}  // namespace
-
-std::vector<std::vector<BlockDisparity>> block_disparities(const LightField& lf, Interval range,
-                                                           const Progress& progress) {
-  check_matching(lf, lf.center());
-  const BlockMatching matching(lf);
-  const int steps = static_cast<int>(std::ceil(range.length() / kBlockLabelStep));
-  const std::vector<float> labels = equidistant_labels(range, std::max(steps, 2) + 1);
-  const int count = static_cast<int>(labels.size());
-  std::vector<std::array<std::vector<float>, kSides.size()>> costs(count);
-  parallel_for(count, progress, [&](int l) { costs[l] = matching.costs(labels[l]); });
-  std::vector<std::vector<BlockDisparity>> found(kSides.size());
-  const float noise = kNoise * kNoise * static_cast<float>(lf.channels());
-  std::vector<float> of_block(count);
-  for (std::size_t i = 0; i < kSides.size(); ++i) {
-    const int pixels = kSides[i] * kSides[i] * kCell * kCell;
-    for (int block = 0; block < matching.count(kSides[i]); ++block) {
-      for (int l = 0; l < count; ++l) of_block[l] = costs[l][i][block] + noise;
-      BlockDisparity disparity;
-      if (read_disparity(labels, of_block, pixels, disparity)) found[i].push_back(disparity);
-    }
-  }
-  return found;
-}
-
-namespace {
-
 // Blocks are matched in views of at least this side, px, and in such of half of it.
 constexpr int kBlockViews = 96;
 constexpr int kLevels = 2;
@@ -369,6 +320,47 @@ std::optional<Interval> range_of_levels(const LightField& lf, int factor, double
 }
 
 }  // namespace
+
+LightField smaller_views(const LightField& lf, int factor, const Progress& progress,
+                         ReducedViews reduced) {
+  const GridShape grid = lf.grid();
+  const int height = lf.height() / factor, width = lf.width() / factor;
+  ViewStack<std::uint16_t> samples(grid, height, width, lf.channels(), {}, allocate_large_zeros);
+  ViewStack<std::uint8_t> valid;
+  if (!lf.valid().empty()) valid = ViewStack<std::uint8_t>(grid, height, width);
+  parallel_for(grid.count(), progress, [&](int i) {
+    const ViewIndex view = samples.view_at(i), center = lf.center();
+    if (reduced == ReducedViews::All || view.v == center.v || view.u == center.u) {
+      reduce(lf, view, factor, samples.view(view));
+    }
+    if (!valid.empty()) reduce_valid(lf, view, factor, valid.view(view));
+    lf.forget_samples();
+  });
+  return {std::move(samples), LightFieldInfo(), std::move(valid)};
+}
+
+std::vector<std::vector<BlockDisparity>> block_disparities(const LightField& lf, Interval range,
+                                                           const Progress& progress) {
+  check_matching(lf, lf.center());
+  const BlockMatching matching(lf);
+  const int steps = static_cast<int>(std::ceil(range.length() / kBlockLabelStep));
+  const std::vector<float> labels = equidistant_labels(range, std::max(steps, 2) + 1);
+  const int count = static_cast<int>(labels.size());
+  std::vector<std::array<std::vector<float>, kSides.size()>> costs(count);
+  parallel_for(count, progress, [&](int l) { costs[l] = matching.costs(labels[l]); });
+  std::vector<std::vector<BlockDisparity>> found(kSides.size());
+  const float noise = kNoise * kNoise * static_cast<float>(lf.channels());
+  std::vector<float> of_block(count);
+  for (std::size_t i = 0; i < kSides.size(); ++i) {
+    const int pixels = kSides[i] * kSides[i] * kCell * kCell;
+    for (int block = 0; block < matching.count(kSides[i]); ++block) {
+      for (int l = 0; l < count; ++l) of_block[l] = costs[l][i][block] + noise;
+      BlockDisparity disparity;
+      if (read_disparity(labels, of_block, pixels, disparity)) found[i].push_back(disparity);
+    }
+  }
+  return found;
+}
 
 std::optional<Interval> certain_range(const LightField& lf, double limit,
                                       std::optional<Interval> seen, const Progress& progress) {

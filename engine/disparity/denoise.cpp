@@ -65,110 +65,6 @@ double denoise_on_device(const LightField& lf, const DenoiseParameters& paramete
   return *std::max_element(gaps.begin(), gaps.end());
 }
 
-}  // namespace
-
-Image<float> smoothness_weights(const LightField& lf, ViewIndex view, double beta,
-                                double noise_variance) {
-  Image<float> weights(lf.height(), lf.width(), 1, 1.0F);
-  if (beta == 0) return weights;
-  gradient_magnitude(lf, view, weights.view());
-  const auto strength = static_cast<float>(-beta * std::sqrt(channel_weight(lf.channels())));
-  const auto of_noise = static_cast<float>(4 * lf.channels() * noise_variance);
-  for (float& weight : weights) {
-    weight = std::exp(strength * std::sqrt(std::max(0.0F, weight * weight - of_noise)));
-  }
-  if (!lf.valid().empty()) ignore_invalid(lf.valid_of(view), weights);
-  return weights;
-}
-
-Schema<StopParameters> stop_schema() {
-  return Schema<StopParameters>()
-      .integer("max_iterations", &StopParameters::max_iterations,
-               {"Iterations", "Maximum denoising iterations, at full resolution"}, {1, 2000, true})
-      .real("gap", &StopParameters::gap,
-            {"Stop at gap",
-             "Denoising stops once the duality gap falls below this fraction of the energy"},
-            {1e-6, 0.1, true});
-}
-
-Schema<DenoiseParameters> denoise_schema() {
-  using P = DenoiseParameters;
-  return Schema<P>()
-      .real("lambda", &P::lambda,
-            {"Smoothing λ", "Weight of the total variation; larger values are smoother"},
-            {0.001, 10, true})
-      .real("weight_power", &P::weight_power,
-            {"Confidence exponent p",
-             "The data term is weighted by confidence^p; 0 weights all pixels equally, as in the "
-             "paper"},
-            {0, 16})
-      .real("edge_strength", &P::edge_strength,
-            {"Edge strength β",
-             "The total variation is weighted by exp(−β·|gradient of the view|); 0 ignores image "
-             "edges, as in the paper"},
-            {0, 100})
-      .part(&P::stop, stop_schema());
-}
-
-ParameterSet plain_denoising() {
-  return {{"weight_power", 0.0}, {"edge_strength", 0.0}};
-}
-
-void fill_data_weights(ImageView<const float> confidence, DataWeight weight,
-                       Image<float>& weights) {
-  for (int y = 0; y < confidence.height; ++y) {
-    float* w = weights.row(y);
-    raise_row(confidence.row(y), weight.power, confidence.width, w);
-    for (int x = 0; x < confidence.width; ++x) w[x] = std::max(w[x], weight.minimum);
-  }
-}
-
-cuda::MapDenoising map_denoising(const DenoiseParameters& p, float min_weight, float map_noise) {
-  return {p.lambda,  p.weight_power,        min_weight, p.edge_strength,
-          map_noise, p.stop.max_iterations, p.stop.gap};
-}
-
-std::string gap_note(double largest) {
-  return fmt::format(finding_text("gap"), largest);
-}
-
-double denoise(const LightField& lf, const DenoiseParameters& parameters,
-               const DenoiseWeights& weighing, ViewStack<float>& disparity,
-               const ViewStack<float>& confidence, const Progress& progress) {
-  const GridShape grid = disparity.grid();
-  const ViewIndex first = disparity.first();
-  std::vector<double> gaps(grid.count());
-  parallel_for_workers(grid.count(), progress, [&] {
-    return [&, solver = TvL2Solver(lf.height(), lf.width()),
-            weights = Image<float>(lf.height(), lf.width())](int i) mutable {
-      const ViewIndex view = grid.view_at(i, first);
-      fill_data_weights(confidence.view(view), {parameters.weight_power, weighing.min_weight},
-                        weights);
-      if (weighing.map_noise > 0) raise_steady(disparity.view(view), weighing.map_noise, weights);
-      const Image<float> edges = smoothness_weights(lf, view, parameters.edge_strength);
-      const ImageView<float> map = disparity.view(view);
-      gaps[i] = solver
-                    .solve({map, weights, edges, parameters.lambda},
-                           {parameters.stop.max_iterations, parameters.stop.gap}, progress, map)
-                    .relative_gap();
-    };
-  });
-  return *std::max_element(gaps.begin(), gaps.end());
-}
-
-void denoise(const LightField& lf, const DenoiseParameters& parameters, Estimate& estimate,
-             const Progress& progress, float min_weight, float map_noise, Device device) {
-  progress.step("denoising");
-  const double gap =
-      device == Device::Cuda
-          ? denoise_on_device(lf, parameters, min_weight, map_noise, estimate, progress)
-          : denoise(lf, parameters, {min_weight, map_noise}, estimate.field.disparity,
-                    estimate.confidence, progress);
-  estimate.notes.push_back(gap_note(gap));
-}
-
-namespace {
-
 constexpr const char* kIslandsKey = "islands";
 constexpr float kAgreement_px = 0.5F;
 constexpr std::size_t kLeastAround = 3;  // Pixels that a median is taken of.
@@ -281,6 +177,106 @@ float median_around(const Surroundings& known, Offset at, float own) {
 }
 
 }  // namespace
+
+Image<float> smoothness_weights(const LightField& lf, ViewIndex view, double beta,
+                                double noise_variance) {
+  Image<float> weights(lf.height(), lf.width(), 1, 1.0F);
+  if (beta == 0) return weights;
+  gradient_magnitude(lf, view, weights.view());
+  const auto strength = static_cast<float>(-beta * std::sqrt(channel_weight(lf.channels())));
+  const auto of_noise = static_cast<float>(4 * lf.channels() * noise_variance);
+  for (float& weight : weights) {
+    weight = std::exp(strength * std::sqrt(std::max(0.0F, weight * weight - of_noise)));
+  }
+  if (!lf.valid().empty()) ignore_invalid(lf.valid_of(view), weights);
+  return weights;
+}
+
+Schema<StopParameters> stop_schema() {
+  return Schema<StopParameters>()
+      .integer("max_iterations", &StopParameters::max_iterations,
+               {"Iterations", "Maximum denoising iterations, at full resolution"}, {1, 2000, true})
+      .real("gap", &StopParameters::gap,
+            {"Stop at gap",
+             "Denoising stops once the duality gap falls below this fraction of the energy"},
+            {1e-6, 0.1, true});
+}
+
+Schema<DenoiseParameters> denoise_schema() {
+  using P = DenoiseParameters;
+  return Schema<P>()
+      .real("lambda", &P::lambda,
+            {"Smoothing λ", "Weight of the total variation; larger values are smoother"},
+            {0.001, 10, true})
+      .real("weight_power", &P::weight_power,
+            {"Confidence exponent p",
+             "The data term is weighted by confidence^p; 0 weights all pixels equally, as in the "
+             "paper"},
+            {0, 16})
+      .real("edge_strength", &P::edge_strength,
+            {"Edge strength β",
+             "The total variation is weighted by exp(−β·|gradient of the view|); 0 ignores image "
+             "edges, as in the paper"},
+            {0, 100})
+      .part(&P::stop, stop_schema());
+}
+
+ParameterSet plain_denoising() {
+  return {{"weight_power", 0.0}, {"edge_strength", 0.0}};
+}
+
+void fill_data_weights(ImageView<const float> confidence, DataWeight weight,
+                       Image<float>& weights) {
+  for (int y = 0; y < confidence.height; ++y) {
+    float* w = weights.row(y);
+    raise_row(confidence.row(y), weight.power, confidence.width, w);
+    for (int x = 0; x < confidence.width; ++x) w[x] = std::max(w[x], weight.minimum);
+  }
+}
+
+cuda::MapDenoising map_denoising(const DenoiseParameters& p, float min_weight, float map_noise) {
+  return {p.lambda,  p.weight_power,        min_weight, p.edge_strength,
+          map_noise, p.stop.max_iterations, p.stop.gap};
+}
+
+std::string gap_note(double largest) {
+  return fmt::format(finding_text("gap"), largest);
+}
+
+double denoise(const LightField& lf, const DenoiseParameters& parameters,
+               const DenoiseWeights& weighing, ViewStack<float>& disparity,
+               const ViewStack<float>& confidence, const Progress& progress) {
+  const GridShape grid = disparity.grid();
+  const ViewIndex first = disparity.first();
+  std::vector<double> gaps(grid.count());
+  parallel_for_workers(grid.count(), progress, [&] {
+    return [&, solver = TvL2Solver(lf.height(), lf.width()),
+            weights = Image<float>(lf.height(), lf.width())](int i) mutable {
+      const ViewIndex view = grid.view_at(i, first);
+      fill_data_weights(confidence.view(view), {parameters.weight_power, weighing.min_weight},
+                        weights);
+      if (weighing.map_noise > 0) raise_steady(disparity.view(view), weighing.map_noise, weights);
+      const Image<float> edges = smoothness_weights(lf, view, parameters.edge_strength);
+      const ImageView<float> map = disparity.view(view);
+      gaps[i] = solver
+                    .solve({map, weights, edges, parameters.lambda},
+                           {parameters.stop.max_iterations, parameters.stop.gap}, progress, map)
+                    .relative_gap();
+    };
+  });
+  return *std::max_element(gaps.begin(), gaps.end());
+}
+
+void denoise(const LightField& lf, const DenoiseParameters& parameters, Estimate& estimate,
+             const Progress& progress, float min_weight, float map_noise, Device device) {
+  progress.step("denoising");
+  const double gap =
+      device == Device::Cuda
+          ? denoise_on_device(lf, parameters, min_weight, map_noise, estimate, progress)
+          : denoise(lf, parameters, {min_weight, map_noise}, estimate.field.disparity,
+                    estimate.confidence, progress);
+  estimate.notes.push_back(gap_note(gap));
+}
 
 Schema<IslandParameters> island_schema() {
   return Schema<IslandParameters>().flag(

@@ -144,37 +144,6 @@ int cells_to_skip(Iterator begin, Iterator end, double enough) {
   return static_cast<int>(end - begin);
 }
 
-}  // namespace
-
-OrientationHistogram::OrientationHistogram(const LightField& lf, double limit,
-                                           const Progress& progress)
-    : limit_(limit) {
-  Findings findings(limit);
-  const auto add = [&findings](const std::vector<Findings>& parts) {
-    for (const Findings& part : parts) findings.add(part);
-  };
-  if (lf.grid().u > 1) {
-    add(collect(lf, StructureTensor::Direction::Horizontal, limit, progress.part(0, 0.5)));
-  }
-  if (lf.grid().v > 1) {
-    add(collect(lf, StructureTensor::Direction::Vertical, limit, progress.part(0.5, 1)));
-  }
-  cells_ = most_coherent(findings);
-  total_ = episcope::total(cells_);
-}
-
-std::optional<Interval> OrientationHistogram::ends(double tail) const {
-  const double enough = tail * total_;
-  const int size = static_cast<int>(cells_.size());
-  const int before = cells_to_skip(cells_.begin(), cells_.end(), enough);
-  if (before == size) return {};
-  const int behind = cells_to_skip(cells_.rbegin(), cells_.rend(), enough);
-  const double last = (size - behind - kLeftOut) * kCell - limit_;
-  return Interval{(before + kLeftOut) * kCell - limit_, std::min(limit_, last)};
-}
-
-namespace {
-
 constexpr int kRows = 64;
 // Pixels matched together: 3×3.
 constexpr int kSupportRadius = 1;
@@ -254,43 +223,6 @@ std::vector<int> distinct_labels(const Image<float>& costs, const std::vector<fl
   return best;
 }
 
-}  // namespace
-
-std::vector<double> label_support(const LightField& lf, const std::vector<float>& labels,
-                                  const Progress& progress) {
-  const int count = static_cast<int>(labels.size());
-  const int rows = std::min(kRows, lf.height());
-  std::vector<double> counts(static_cast<std::size_t>(rows) * count);
-  parallel_for_workers(rows, progress, [&] {
-    return [&, costs = WindowCosts(lf, lf.center(), labels)](int i) mutable {
-      const int y = rows > 1 ? i * (lf.height() - 1) / (rows - 1) : 0;
-      double* const of_row = counts.data() + static_cast<std::size_t>(i) * count;
-      const std::vector<int> matched = distinct_labels(costs.compute(y, progress), labels);
-      for (int x = 0; x < lf.width(); ++x) {
-        if (matched[x] >= 0 && lf.is_valid(lf.center(), y, x)) of_row[matched[x]] += 1;
-      }
-    };
-  });
-  std::vector<double> shares(count);
-  for (std::size_t i = 0; i < counts.size(); ++i) shares[i % count] += counts[i];
-  const double total = std::accumulate(shares.begin(), shares.end(), 0.0);
-  for (double& share : shares) share /= std::max(total, 1.0);
-  return shares;
-}
-
-std::optional<double> matched_disparity(const LightField& lf, ViewIndex view, PixelIndex pixel,
-                                        Interval range, const Progress& progress) {
-  constexpr double step = 0.1;
-  constexpr int radius = 3;
-  const int count = static_cast<int>(std::ceil(range.length() / step)) + 1;
-  const std::vector<float> labels = equidistant_labels(range, count);
-  WindowCosts windows(lf, view, labels, radius);
-  const int matched = distinct_labels(windows.compute(pixel.y, progress), labels)[pixel.x];
-  return matched < 0 ? std::nullopt : std::optional<double>(labels[matched]);
-}
-
-namespace {
-
 // The range begins and ends where this share of the coherent pixels lies close together.
 constexpr double kOrientationTail = 0.002;
 // Coherent pixels below which orientations tell nothing.
@@ -362,6 +294,66 @@ class KeptRange {
 };
 
 }  // namespace
+
+OrientationHistogram::OrientationHistogram(const LightField& lf, double limit,
+                                           const Progress& progress)
+    : limit_(limit) {
+  Findings findings(limit);
+  const auto add = [&findings](const std::vector<Findings>& parts) {
+    for (const Findings& part : parts) findings.add(part);
+  };
+  if (lf.grid().u > 1) {
+    add(collect(lf, StructureTensor::Direction::Horizontal, limit, progress.part(0, 0.5)));
+  }
+  if (lf.grid().v > 1) {
+    add(collect(lf, StructureTensor::Direction::Vertical, limit, progress.part(0.5, 1)));
+  }
+  cells_ = most_coherent(findings);
+  total_ = episcope::total(cells_);
+}
+
+std::optional<Interval> OrientationHistogram::ends(double tail) const {
+  const double enough = tail * total_;
+  const int size = static_cast<int>(cells_.size());
+  const int before = cells_to_skip(cells_.begin(), cells_.end(), enough);
+  if (before == size) return {};
+  const int behind = cells_to_skip(cells_.rbegin(), cells_.rend(), enough);
+  const double last = (size - behind - kLeftOut) * kCell - limit_;
+  return Interval{(before + kLeftOut) * kCell - limit_, std::min(limit_, last)};
+}
+
+std::vector<double> label_support(const LightField& lf, const std::vector<float>& labels,
+                                  const Progress& progress) {
+  const int count = static_cast<int>(labels.size());
+  const int rows = std::min(kRows, lf.height());
+  std::vector<double> counts(static_cast<std::size_t>(rows) * count);
+  parallel_for_workers(rows, progress, [&] {
+    return [&, costs = WindowCosts(lf, lf.center(), labels)](int i) mutable {
+      const int y = rows > 1 ? i * (lf.height() - 1) / (rows - 1) : 0;
+      double* const of_row = counts.data() + static_cast<std::size_t>(i) * count;
+      const std::vector<int> matched = distinct_labels(costs.compute(y, progress), labels);
+      for (int x = 0; x < lf.width(); ++x) {
+        if (matched[x] >= 0 && lf.is_valid(lf.center(), y, x)) of_row[matched[x]] += 1;
+      }
+    };
+  });
+  std::vector<double> shares(count);
+  for (std::size_t i = 0; i < counts.size(); ++i) shares[i % count] += counts[i];
+  const double total = std::accumulate(shares.begin(), shares.end(), 0.0);
+  for (double& share : shares) share /= std::max(total, 1.0);
+  return shares;
+}
+
+std::optional<double> matched_disparity(const LightField& lf, ViewIndex view, PixelIndex pixel,
+                                        Interval range, const Progress& progress) {
+  constexpr double step = 0.1;
+  constexpr int radius = 3;
+  const int count = static_cast<int>(std::ceil(range.length() / step)) + 1;
+  const std::vector<float> labels = equidistant_labels(range, count);
+  WindowCosts windows(lf, view, labels, radius);
+  const int matched = distinct_labels(windows.compute(pixel.y, progress), labels)[pixel.x];
+  return matched < 0 ? std::nullopt : std::optional<double>(labels[matched]);
+}
 
 // The largest disparity whose neighboring views still share most of the image.
 double farthest_found(const LightField& lf) {

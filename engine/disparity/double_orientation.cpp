@@ -19,6 +19,7 @@
 #include <utility>
 
 namespace episcope {
+
 // The filters of double orientations over an EPI of some views, with the memory they live in.
 struct DoubleFilterSet {
   SecondOrderFilters filters;               // Its weights point into the vector below.
@@ -157,6 +158,139 @@ int views_along(const LightField& lf, Direction direction) {
 
 long rounded_lanes(long lanes) {
   return (lanes + 15) / 16 * 16;
+}
+
+cuda::DoubleTaps device_taps(const Taps& taps) {
+  cuda::DoubleTaps copy;
+  copy.radius = taps.radius;
+  std::copy_n(taps.values, 2 * taps.radius + 1, copy.values);
+  return copy;
+}
+
+cuda::DoublePass device_pass(const LightField& lf, const TensorScales& scales,
+                             const DoubleSearch& search, bool is_horizontal) {
+  const DoubleFilterSet set =
+      make_double_filters(is_horizontal ? lf.grid().u : lf.grid().v, lf.channels(), scales);
+  const PixelIndex tile =
+      DoubleOrientation::tile(is_horizontal ? DoubleOrientation::Direction::Horizontal
+                                            : DoubleOrientation::Direction::Vertical);
+  const SecondOrderFilters& filters = set.filters;
+  cuda::DoublePass pass;
+  pass.is_horizontal = is_horizontal;
+  for (int order = 0; order < 3; ++order) {
+    pass.along[order] = device_taps(filters.along[order]);
+    pass.views[order] = device_taps(filters.views[order]);
+    pass.scale[order] = filters.scale[order];
+  }
+  pass.integrate = device_taps(filters.integrate);
+  pass.across = device_taps(filters.across);
+  pass.mix = filters.mix;
+  pass.contrast_energy = filters.contrast_energy;
+  pass.noise_energy = filters.noise_energy;
+  pass.first_product = set.first_product;
+  pass.last_product = set.last_product;
+  pass.row_weights = set.row_weights;
+  pass.tile_height = tile.y;
+  pass.tile_width = tile.x;
+  pass.tile_stride = search.tile_stride;
+  return pass;
+}
+
+struct Run {
+  int count;
+  const float* near;
+  const float* far;
+  const float* confidence;
+};
+
+float eighth_power(float value) {
+  const float square = value * value;
+  const float fourth = square * square;
+  return fourth * fourth;
+}
+
+// Into what the other direction left there: confidence 0 if nothing.
+void merge(const Run& run, float* near, float* far, std::uint8_t* confidence) {
+  for (int i = 0; i < run.count; ++i) {
+    const float here = run.confidence[i];
+    const float there = static_cast<float>(confidence[i]) / 255;
+    const bool agree = here > 0 && there > 0 &&
+                       std::abs(run.near[i] - near[i]) < kDirectionAgreement &&
+                       std::abs(run.far[i] - far[i]) < kDirectionAgreement;
+    if (!agree && here <= there) continue;
+    const float weight = eighth_power(here);
+    const float share = agree ? weight / (weight + eighth_power(there) + 1e-30F) : 1;
+    near[i] = share * run.near[i] + (1 - share) * near[i];
+    far[i] = share * run.far[i] + (1 - share) * far[i];
+    confidence[i] = static_cast<std::uint8_t>(std::lround(255 * std::max(here, there)));
+  }
+}
+
+struct Measurement {
+  const LightField& light_field;
+  const TensorScales& scales;
+  const DoubleSearch& search;
+  DoubleLayers& layers;
+  int first_row = 0;  // of the layers
+};
+
+// Tiles of all camera rows (horizontal EPIs) or columns.
+void run_direction(const Measurement& measurement, Direction direction, const Progress& progress) {
+  const LightField& lf = measurement.light_field;
+  DoubleLayers& layers = measurement.layers;
+  const bool horizontal = direction == Direction::Horizontal;
+  const GridShape grid = layers.near.grid();
+  const ViewIndex first = layers.near.first();
+  const PixelIndex tile = DoubleOrientation::tile(direction);
+  const int columns = (lf.width() + tile.x - 1) / tile.x;
+  const int rows = layers.near.height(), first_row = measurement.first_row;
+  const int tiles = columns * ((rows + tile.y - 1) / tile.y);
+  const int lines = horizontal ? grid.v : grid.u;
+  parallel_for_workers(lines * tiles, progress, [&] {
+    return [&, orientation = DoubleOrientation(lf, direction, measurement.scales,
+                                               measurement.search)](int i) mutable {
+      if (i % measurement.search.tile_stride != 0) return;
+      const int line = (horizontal ? first.v : first.u) + i / tiles;
+      const int row = i % tiles / columns * tile.y;
+      const PixelIndex begin{first_row + row, i % tiles % columns * tile.x};
+      const int first_view = horizontal ? first.u : first.v;
+      const DoubleOrientation::Task task{line,
+                                         begin,
+                                         std::min(tile.y, rows - row),
+                                         std::min(tile.x, lf.width() - begin.x),
+                                         first_view,
+                                         first_view + (horizontal ? grid.u : grid.v)};
+      orientation.estimate(task, [&](int view, PixelIndex at, int count, const float* near,
+                                     const float* far, const float* confidence) {
+        const ViewIndex index = horizontal ? ViewIndex{line, view} : ViewIndex{view, line};
+        const int y = at.y - first_row;
+        merge({count, near, far, confidence}, layers.near.view(index).row(y) + at.x,
+              layers.far.view(index).row(y) + at.x, layers.confidence.view(index).row(y) + at.x);
+      });
+    };
+  });
+}
+
+void measure_on_device(const Measurement& measurement, const Progress& progress) {
+  progress.step("two orientations");
+  const DevicePasses of =
+      device_passes(measurement.light_field, measurement.scales, measurement.search);
+  cuda::measure_double_layers(
+      measurement.light_field, of.passes, of.shears,
+      {measurement.layers.near, measurement.layers.far, measurement.layers.confidence}, progress);
+}
+
+// View by view: memory of hundreds of megabytes is touched here for the first time, which takes
+// longer than a stop request may wait.
+void clear_layers(DoubleLayers& layers, const Progress& progress) {
+  const GridShape grid = layers.near.grid();
+  const ViewIndex first = layers.near.first();
+  parallel_for(grid.count(), progress, [&](int i) {
+    const ViewIndex view = grid.view_at(i, first);
+    std::fill_n(layers.near.view(view).data, layers.near.view_size(), 0.0F);
+    std::fill_n(layers.far.view(view).data, layers.far.view_size(), 0.0F);
+    std::memset(layers.confidence.view(view).data, 0, layers.confidence.view_size());
+  });
 }
 
 }  // namespace
@@ -305,143 +439,6 @@ PixelIndex DoubleOrientation::tile(Direction direction) {
 void DoubleOrientation::estimate(const Task& task, const Sink& sink) {
   state_->estimate(task, sink);
 }
-
-namespace {
-
-cuda::DoubleTaps device_taps(const Taps& taps) {
-  cuda::DoubleTaps copy;
-  copy.radius = taps.radius;
-  std::copy_n(taps.values, 2 * taps.radius + 1, copy.values);
-  return copy;
-}
-
-cuda::DoublePass device_pass(const LightField& lf, const TensorScales& scales,
-                             const DoubleSearch& search, bool is_horizontal) {
-  const DoubleFilterSet set =
-      make_double_filters(is_horizontal ? lf.grid().u : lf.grid().v, lf.channels(), scales);
-  const PixelIndex tile =
-      DoubleOrientation::tile(is_horizontal ? DoubleOrientation::Direction::Horizontal
-                                            : DoubleOrientation::Direction::Vertical);
-  const SecondOrderFilters& filters = set.filters;
-  cuda::DoublePass pass;
-  pass.is_horizontal = is_horizontal;
-  for (int order = 0; order < 3; ++order) {
-    pass.along[order] = device_taps(filters.along[order]);
-    pass.views[order] = device_taps(filters.views[order]);
-    pass.scale[order] = filters.scale[order];
-  }
-  pass.integrate = device_taps(filters.integrate);
-  pass.across = device_taps(filters.across);
-  pass.mix = filters.mix;
-  pass.contrast_energy = filters.contrast_energy;
-  pass.noise_energy = filters.noise_energy;
-  pass.first_product = set.first_product;
-  pass.last_product = set.last_product;
-  pass.row_weights = set.row_weights;
-  pass.tile_height = tile.y;
-  pass.tile_width = tile.x;
-  pass.tile_stride = search.tile_stride;
-  return pass;
-}
-
-struct Run {
-  int count;
-  const float* near;
-  const float* far;
-  const float* confidence;
-};
-
-float eighth_power(float value) {
-  const float square = value * value;
-  const float fourth = square * square;
-  return fourth * fourth;
-}
-
-// Into what the other direction left there: confidence 0 if nothing.
-void merge(const Run& run, float* near, float* far, std::uint8_t* confidence) {
-  for (int i = 0; i < run.count; ++i) {
-    const float here = run.confidence[i];
-    const float there = static_cast<float>(confidence[i]) / 255;
-    const bool agree = here > 0 && there > 0 &&
-                       std::abs(run.near[i] - near[i]) < kDirectionAgreement &&
-                       std::abs(run.far[i] - far[i]) < kDirectionAgreement;
-    if (!agree && here <= there) continue;
-    const float weight = eighth_power(here);
-    const float share = agree ? weight / (weight + eighth_power(there) + 1e-30F) : 1;
-    near[i] = share * run.near[i] + (1 - share) * near[i];
-    far[i] = share * run.far[i] + (1 - share) * far[i];
-    confidence[i] = static_cast<std::uint8_t>(std::lround(255 * std::max(here, there)));
-  }
-}
-
-struct Measurement {
-  const LightField& light_field;
-  const TensorScales& scales;
-  const DoubleSearch& search;
-  DoubleLayers& layers;
-  int first_row = 0;  // of the layers
-};
-
-// Tiles of all camera rows (horizontal EPIs) or columns.
-void run_direction(const Measurement& measurement, Direction direction, const Progress& progress) {
-  const LightField& lf = measurement.light_field;
-  DoubleLayers& layers = measurement.layers;
-  const bool horizontal = direction == Direction::Horizontal;
-  const GridShape grid = layers.near.grid();
-  const ViewIndex first = layers.near.first();
-  const PixelIndex tile = DoubleOrientation::tile(direction);
-  const int columns = (lf.width() + tile.x - 1) / tile.x;
-  const int rows = layers.near.height(), first_row = measurement.first_row;
-  const int tiles = columns * ((rows + tile.y - 1) / tile.y);
-  const int lines = horizontal ? grid.v : grid.u;
-  parallel_for_workers(lines * tiles, progress, [&] {
-    return [&, orientation = DoubleOrientation(lf, direction, measurement.scales,
-                                               measurement.search)](int i) mutable {
-      if (i % measurement.search.tile_stride != 0) return;
-      const int line = (horizontal ? first.v : first.u) + i / tiles;
-      const int row = i % tiles / columns * tile.y;
-      const PixelIndex begin{first_row + row, i % tiles % columns * tile.x};
-      const int first_view = horizontal ? first.u : first.v;
-      const DoubleOrientation::Task task{line,
-                                         begin,
-                                         std::min(tile.y, rows - row),
-                                         std::min(tile.x, lf.width() - begin.x),
-                                         first_view,
-                                         first_view + (horizontal ? grid.u : grid.v)};
-      orientation.estimate(task, [&](int view, PixelIndex at, int count, const float* near,
-                                     const float* far, const float* confidence) {
-        const ViewIndex index = horizontal ? ViewIndex{line, view} : ViewIndex{view, line};
-        const int y = at.y - first_row;
-        merge({count, near, far, confidence}, layers.near.view(index).row(y) + at.x,
-              layers.far.view(index).row(y) + at.x, layers.confidence.view(index).row(y) + at.x);
-      });
-    };
-  });
-}
-
-void measure_on_device(const Measurement& measurement, const Progress& progress) {
-  progress.step("two orientations");
-  const DevicePasses of =
-      device_passes(measurement.light_field, measurement.scales, measurement.search);
-  cuda::measure_double_layers(
-      measurement.light_field, of.passes, of.shears,
-      {measurement.layers.near, measurement.layers.far, measurement.layers.confidence}, progress);
-}
-
-// View by view: memory of hundreds of megabytes is touched here for the first time, which takes
-// longer than a stop request may wait.
-void clear_layers(DoubleLayers& layers, const Progress& progress) {
-  const GridShape grid = layers.near.grid();
-  const ViewIndex first = layers.near.first();
-  parallel_for(grid.count(), progress, [&](int i) {
-    const ViewIndex view = grid.view_at(i, first);
-    std::fill_n(layers.near.view(view).data, layers.near.view_size(), 0.0F);
-    std::fill_n(layers.far.view(view).data, layers.far.view_size(), 0.0F);
-    std::memset(layers.confidence.view(view).data, 0, layers.confidence.view_size());
-  });
-}
-
-}  // namespace
 
 DevicePasses device_passes(const LightField& lf, const TensorScales& scales,
                            const DoubleSearch& search) {

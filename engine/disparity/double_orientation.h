@@ -4,7 +4,7 @@
 #include "engine/core/estimate.h"
 #include "engine/core/light_field.h"
 #include "engine/core/progress.h"
-#include "engine/cuda/double_layers.h"
+#include "engine/cuda/orientations.h"
 #include "engine/disparity/estimator.h"
 #include "engine/disparity/structure_tensor.h"
 

@@ -3,8 +3,8 @@
 
 #include "engine/core/finding.h"
 #include "engine/core/parallel.h"
-#include "engine/cuda/line_check.h"
-#include "engine/cuda/ordering.h"
+#include "engine/cuda/orientations.h"
+#include "engine/cuda/tv_l2.h"
 #include "engine/disparity/kernels/line_kernel.h"
 #include "engine/disparity/kernels/shared_constants.h"
 #include "engine/solvers/ordering_terms.h"
@@ -20,7 +20,6 @@
 #include <vector>
 
 namespace episcope {
-
 namespace {
 
 // One view that lines of another reach, by `steps` in its row or column of the grid.
@@ -131,35 +130,6 @@ class Replacer {
   int least_views_ = kOccludedMinViews;
   ViewIndex view_;
 };
-
-}  // namespace
-
-long replace_occluded(const PackedViews& views, ViewStack<float>& disparity,
-                      const ViewStack<float>& confidence, const Progress& progress) {
-  const ViewStack<float> before = disparity.clone();
-  const float noise = residual_noise(views, before) + kMinDifference * kMinDifference;
-  std::vector<long> changed(disparity.grid().count());
-  parallel_for_workers(disparity.grid().count(), progress, [&] {
-    return [&, replacer = Replacer(views, before, confidence, noise)](int i) mutable {
-      const ViewIndex view = disparity.view_at(i);
-      replacer.begin(view);
-      for (int y = 0; y < before.height(); ++y) {
-        if (y % 16 == 0) progress.check();
-        changed[i] += replacer.replace(y, disparity.view(view).row(y));
-      }
-    };
-  });
-  return std::accumulate(changed.begin(), changed.end(), 0L);
-}
-
-void replace_occluded(const LightField& lf, ViewStack<float>& disparity,
-                      const ViewStack<float>& confidence, const Progress& progress, Device device) {
-  if (device == Device::Cuda) return cuda::replace_occluded(lf, disparity, confidence, progress);
-  replace_occluded(pack_views(lf, progress.part(0, 0.25)), disparity, confidence,
-                   progress.part(0.25, 1));
-}
-
-namespace {
 
 // A line violates the ordering where D u is below this, px.
 constexpr float kOrderingViolation = -0.05F;
@@ -315,43 +285,6 @@ LineCount count_lines(const ViewStack<float>& disparity, ViewIndex view, Image<f
   return count;
 }
 
-// λ Σ g |∇u| + ½ Σ w (u − f)² of one view.
-double own_energy(const OrderedViews& work, ViewIndex view, ImageView<const float> u,
-                  const Image<float>& edges) {
-  const DenoiseParameters& parameters = work.parameters.denoising;
-  Image<float> weights(u.height, u.width);
-  fill_data_weights(work.confidence.view(view), {parameters.weight_power, kOrderingLeastWeight},
-                    weights);
-  double sum = 0;
-  for (int y = 0; y < u.height; ++y) {
-    const float* const row = u.row(y);
-    const float* const below = u.row(std::min(y + 1, u.height - 1));
-    const float* const f = work.f.view(view).row(y);
-    const float* const w = weights.row(y);
-    const float* const g = edges.row(y);
-    const auto lambda = static_cast<float>(parameters.lambda);
-    float of_row = 0;
-    for (int x = 0; x < u.width; ++x) {
-      const float right = row[std::min(x + 1, u.width - 1)] - row[x], down = below[x] - row[x];
-      const float off = row[x] - f[x];
-      of_row += lambda * g[x] * std::sqrt(right * right + down * down) + 0.5F * w[x] * off * off;
-    }
-    sum += static_cast<double>(of_row);
-  }
-  return sum;
-}
-
-// The same and its lines.
-double energy_of(const OrderedViews& work, ViewIndex view, const Image<float>& edges) {
-  const ImageView<const float> u = std::as_const(work.u).view(view);
-  double sum = own_energy(work, view, u, edges);
-  for_each_neighbor(work, view, [&](ViewIndex other, ViewIndex way) {
-    sum +=
-        ordering_energy(u, u, std::as_const(work.u).view(other), step_along(way), work.penalty());
-  });
-  return sum;
-}
-
 // Before each half of a sweep.
 void name_sweep(int sweeps, int half, double gap, const Progress& progress) {
   if (half % 2 != 0) return;
@@ -439,6 +372,31 @@ std::string ordering_note(double before, double after) {
 
 }  // namespace
 
+long replace_occluded(const PackedViews& views, ViewStack<float>& disparity,
+                      const ViewStack<float>& confidence, const Progress& progress) {
+  const ViewStack<float> before = disparity.clone();
+  const float noise = residual_noise(views, before) + kMinDifference * kMinDifference;
+  std::vector<long> changed(disparity.grid().count());
+  parallel_for_workers(disparity.grid().count(), progress, [&] {
+    return [&, replacer = Replacer(views, before, confidence, noise)](int i) mutable {
+      const ViewIndex view = disparity.view_at(i);
+      replacer.begin(view);
+      for (int y = 0; y < before.height(); ++y) {
+        if (y % 16 == 0) progress.check();
+        changed[i] += replacer.replace(y, disparity.view(view).row(y));
+      }
+    };
+  });
+  return std::accumulate(changed.begin(), changed.end(), 0L);
+}
+
+void replace_occluded(const LightField& lf, ViewStack<float>& disparity,
+                      const ViewStack<float>& confidence, const Progress& progress, Device device) {
+  if (device == Device::Cuda) return cuda::replace_occluded(lf, disparity, confidence, progress);
+  replace_occluded(pack_views(lf, progress.part(0, 0.25)), disparity, confidence,
+                   progress.part(0.25, 1));
+}
+
 double denoise_with_ordering(const LightField& lf, const EpiCParameters& parameters,
                              const ViewStack<float>& observed, Estimate& estimate,
                              const Progress& progress, Device device) {
@@ -459,20 +417,6 @@ double denoise_with_ordering(const LightField& lf, const EpiCParameters& paramet
     gap = i % 2 == 0 ? other : std::max(gap, other);
   }
   return gap;
-}
-
-double epi_c_energy(const LightField& lf, const EpiCParameters& parameters,
-                    const ViewStack<float>& observed, Estimate& estimate,
-                    const Progress& progress) {
-  const OrderedViews work{lf, parameters, observed, estimate.confidence, estimate.field.disparity};
-  const GridShape grid = work.u.grid();
-  std::vector<double> energies(grid.count());
-  parallel_for(grid.count(), progress, [&](int i) {
-    const ViewIndex view = grid.view_at(i);
-    const Image<float> edges = smoothness_weights(lf, view, parameters.denoising.edge_strength);
-    energies[i] = energy_of(work, view, edges);
-  });
-  return std::accumulate(energies.begin(), energies.end(), 0.0);
 }
 
 double ordering_violations(const ViewStack<float>& disparity, const Progress& progress,

@@ -9,8 +9,6 @@
 #include "engine/disparity/line_check.h"
 #include "engine/disparity/view_samples.h"
 
-#include <string>
-
 namespace episcope {
 
 /// Replaces the disparity of rays that other views see through. In an opaque scene the line of a
@@ -63,7 +61,7 @@ struct EpiCParameters {
 /// its part with ψ replaced by its quadratic majorizer, which is TvL2Solver's problem with other f
 /// and w. For fixed lines that lowers the energy, since ψ is smooth and TV is separable over views.
 /// Lines are traced anew through the current u at each step; of lines that move with u the energy
-/// (epi_c_energy) is not bound to fall, but it does with every sweep on the scenes of the tests.
+/// is not bound to fall, but it does with every sweep on the scenes of the tests.
 ///
 /// Defaults: λ = 0.05, p = 4, β = 15, μ₊ = 0, two sweeps (tests/accuracy/tuning.md).
 ///
@@ -87,13 +85,6 @@ struct EpiCParameters {
 double denoise_with_ordering(const LightField& light_field, const EpiCParameters& parameters,
                              const ViewStack<float>& observed, Estimate& estimate,
                              const Progress& progress, Device device = Device::Cpu);
-
-/// The energy above of `estimate.field`, for `observed` f and the weights from
-/// `estimate.confidence`; all cover all views. Lines follow `estimate.field` itself.
-/// Throws Cancelled.
-[[nodiscard]] double epi_c_energy(const LightField& light_field, const EpiCParameters& parameters,
-                                  const ViewStack<float>& observed, Estimate& estimate,
-                                  const Progress& progress);
 
 /// Share in [0, 1] of the lines to neighboring views, within the image, that violate the ordering:
 /// D u < −0.05 px at u itself. `disparity` covers all views. Throws Cancelled.

@@ -2,7 +2,7 @@
 #include "engine/disparity/epi_s.h"
 
 #include "engine/cuda/host_pages.h"
-#include "engine/cuda/line_check.h"
+#include "engine/cuda/orientations.h"
 #include "engine/disparity/view_samples.h"
 
 #include <algorithm>

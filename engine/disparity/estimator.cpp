@@ -31,98 +31,11 @@ namespace {
 
 constexpr int kMaxThreads = 1024;
 
-}  // namespace
-
-Names<ViewSelection> names_of(ViewSelection) {
-  return {{ViewSelection::Center, "center"}, {ViewSelection::All, "all"}};
-}
-
-Names<Device> names_of(Device) {
-  return {{Device::Auto, "auto"}, {Device::Cpu, "cpu"}, {Device::Cuda, "cuda"}};
-}
-
-Schema<RunOptions> run_schema() {
-  Schema<RunOptions> schema;
-  schema
-      .choice("views", &RunOptions::views,
-              {"Views", "Views to estimate; by default all views if the method supports it"})
-      .choice("device", &RunOptions::device, {"Device", "Device to compute on"})
-      .integer("threads", &RunOptions::threads,
-               {"Threads", "Number of threads; 0 = one per processor"}, {0, kMaxThreads});
-  return schema;
-}
-
-namespace {
-
-// Maps of whole views or of rows from `first_row` on.
-template <class T>
-void clear_invalid_of(const LightField& light_field, ViewStack<T>& maps, int first_row = 0) {
-  if (light_field.valid().empty() || maps.empty()) return;
-  for (int i = 0; i < maps.grid().count(); ++i) {
-    const ViewIndex view = maps.grid().view_at(i, maps.first());
-    const std::uint8_t* const valid = light_field.valid().view(view).row(first_row);
-    T* const map = maps.view(view).data;
-    for (std::size_t n = 0; n < maps.view_size(); ++n) {
-      if (valid[n] == 0) map[n] = 0;
-    }
-  }
-}
-
 void mark(const LightField& light_field, DisparityField& field, int first_row = 0) {
   if (light_field.valid().empty() || field.empty()) return;
   field.require_mask();
-  clear_invalid_of(light_field, field.valid, first_row);
+  clear_invalid(light_field, field.valid, first_row);
 }
-
-}  // namespace
-
-void clear_invalid(const LightField& light_field, ViewStack<float>& maps, int first_row) {
-  clear_invalid_of(light_field, maps, first_row);
-}
-
-void clear_invalid(const LightField& light_field, ViewStack<std::uint8_t>& maps, int first_row) {
-  clear_invalid_of(light_field, maps, first_row);
-}
-
-void mark_invalid(const LightField& light_field, Estimate& estimate) {
-  mark(light_field, estimate.field);
-  mark(light_field, estimate.layered.foreground);
-  mark(light_field, estimate.layered.background);
-  mark(light_field, estimate.second);
-  clear_invalid_of(light_field, estimate.layered.layers);
-  clear_invalid_of(light_field, estimate.confidence);
-}
-
-void mark_invalid(const LightField& light_field, int first_row, BlockMaps& block) {
-  mark(light_field, block.field, first_row);
-  mark(light_field, block.second, first_row);
-  clear_invalid_of(light_field, block.confidence, first_row);
-}
-
-std::size_t count_valid(const LightField& light_field, ViewIndex view) {
-  const auto pixels = static_cast<std::size_t>(light_field.height()) * light_field.width();
-  if (light_field.valid().empty()) return pixels;
-  const std::uint8_t* const valid = light_field.valid().view(view).data;
-  return pixels - std::count(valid, valid + pixels, 0);
-}
-
-void require_device(Device device, const EstimatorInfo& info) {
-  if (device == Device::Auto) return;
-  if (std::ranges::count(info.devices, device) == 0) {
-    throw Unavailable(fmt::format("{} runs on the CPU only; use --device cpu or auto", info.name));
-  }
-  if (device != Device::Cuda || has_cuda_device()) return;
-  throw Unavailable(fmt::format("there is no GPU to use: {}; use --device cpu or auto",
-                                known_cuda_device().why_not));
-}
-
-Device chosen_device(Device device, const EstimatorInfo& info) {
-  if (device != Device::Auto) return device;
-  const bool can_use = std::ranges::count(info.devices, Device::Cuda) > 0 && has_cuda_device();
-  return can_use ? Device::Cuda : Device::Cpu;
-}
-
-namespace {
 
 // For a parameter `range` that asked to find it, for a range found that may be too narrow, and for
 // one given that holds nothing.
@@ -223,43 +136,6 @@ BlockPass forgetting(const EvenLightFieldPtr& seen, BlockPass pass) {
   };
   return pass;
 }
-
-}  // namespace
-
-Estimate Estimator::run(const LightField& given, EvenViews& even, const ParameterSet& values,
-                        const RunOptions& options, const Progress& progress) const {
-  require_device(options.device, info);
-  const Progress limited = progress.limited_to(options.threads);
-  const EvenLightFieldPtr equalized =
-      equalized_for(info, given, even, limited.part(0, kEqualizing));
-  const LightField& light_field = equalized ? equalized->light_field : given;
-  const Stopwatch watch;
-  Estimate result = estimate_on_device(options.device, info, [&](Device device) {
-    return estimate(light_field, values, options.views, limited.part(kEqualizing, 1), device);
-  });
-  mark_invalid(light_field, result);
-  complete_provenance(result, info.id, light_field, watch.seconds());
-  if (equalized) result.notes.push_back(equalized->note);
-  return result;
-}
-
-BlockwiseRun Estimator::in_blocks(const LightField& given, EvenViews& even,
-                                  const ParameterSet& values, const RunOptions& options,
-                                  const Progress& progress) const {
-  require_device(options.device, info);
-  const Progress limited = progress.limited_to(options.threads);
-  const EvenLightFieldPtr equalized = equalized_for(info, given, even, limited.part(0, 0.5));
-  const LightField& light_field = equalized ? equalized->light_field : given;
-  BlockwiseRun run = blocks(light_field, values, options.views, limited.part(0.5, 1));
-  complete_provenance(run.provenance, info.id, light_field, 0);
-  run.provenance.device = kCpu;
-  if (!equalized) return run;
-  run.provenance.notes.push_back(equalized->note);
-  for (BlockPass& pass : run.passes) pass = forgetting(equalized, std::move(pass));
-  return run;
-}
-
-namespace {
 
 // Bands of fewer rows would mostly compute what they need around them.
 constexpr int kFewestRows = 8;
@@ -399,6 +275,112 @@ class BlockRunner {
 };
 
 }  // namespace
+
+Names<ViewSelection> names_of(ViewSelection) {
+  return {{ViewSelection::Center, "center"}, {ViewSelection::All, "all"}};
+}
+
+Names<Device> names_of(Device) {
+  return {{Device::Auto, "auto"}, {Device::Cpu, "cpu"}, {Device::Cuda, "cuda"}};
+}
+
+Schema<RunOptions> run_schema() {
+  Schema<RunOptions> schema;
+  schema
+      .choice("views", &RunOptions::views,
+              {"Views", "Views to estimate; by default all views if the method supports it"})
+      .choice("device", &RunOptions::device, {"Device", "Device to compute on"})
+      .integer("threads", &RunOptions::threads,
+               {"Threads", "Number of threads; 0 = one per processor"}, {0, kMaxThreads});
+  return schema;
+}
+
+template <class T>
+void clear_invalid(const LightField& light_field, ViewStack<T>& maps, int first_row) {
+  if (light_field.valid().empty() || maps.empty()) return;
+  for (int i = 0; i < maps.grid().count(); ++i) {
+    const ViewIndex view = maps.grid().view_at(i, maps.first());
+    const std::uint8_t* const valid = light_field.valid().view(view).row(first_row);
+    T* const map = maps.view(view).data;
+    for (std::size_t n = 0; n < maps.view_size(); ++n) {
+      if (valid[n] == 0) map[n] = 0;
+    }
+  }
+}
+
+template void clear_invalid(const LightField&, ViewStack<float>&, int);
+template void clear_invalid(const LightField&, ViewStack<std::uint8_t>&, int);
+
+void mark_invalid(const LightField& light_field, Estimate& estimate) {
+  mark(light_field, estimate.field);
+  mark(light_field, estimate.layered.foreground);
+  mark(light_field, estimate.layered.background);
+  mark(light_field, estimate.second);
+  clear_invalid(light_field, estimate.layered.layers);
+  clear_invalid(light_field, estimate.confidence);
+}
+
+void mark_invalid(const LightField& light_field, int first_row, BlockMaps& block) {
+  mark(light_field, block.field, first_row);
+  mark(light_field, block.second, first_row);
+  clear_invalid(light_field, block.confidence, first_row);
+}
+
+std::size_t count_valid(const LightField& light_field, ViewIndex view) {
+  const auto pixels = static_cast<std::size_t>(light_field.height()) * light_field.width();
+  if (light_field.valid().empty()) return pixels;
+  const std::uint8_t* const valid = light_field.valid().view(view).data;
+  return pixels - std::count(valid, valid + pixels, 0);
+}
+
+void require_device(Device device, const EstimatorInfo& info) {
+  if (device == Device::Auto) return;
+  if (std::ranges::count(info.devices, device) == 0) {
+    throw Unavailable(fmt::format("{} runs on the CPU only; use --device cpu or auto", info.name));
+  }
+  if (device != Device::Cuda || has_cuda_device()) return;
+  throw Unavailable(fmt::format("there is no GPU to use: {}; use --device cpu or auto",
+                                known_cuda_device().why_not));
+}
+
+Device chosen_device(Device device, const EstimatorInfo& info) {
+  if (device != Device::Auto) return device;
+  const bool can_use = std::ranges::count(info.devices, Device::Cuda) > 0 && has_cuda_device();
+  return can_use ? Device::Cuda : Device::Cpu;
+}
+
+Estimate Estimator::run(const LightField& given, EvenViews& even, const ParameterSet& values,
+                        const RunOptions& options, const Progress& progress) const {
+  require_device(options.device, info);
+  const Progress limited = progress.limited_to(options.threads);
+  const EvenLightFieldPtr equalized =
+      equalized_for(info, given, even, limited.part(0, kEqualizing));
+  const LightField& light_field = equalized ? equalized->light_field : given;
+  const Stopwatch watch;
+  Estimate result = estimate_on_device(options.device, info, [&](Device device) {
+    return estimate(light_field, values, options.views, limited.part(kEqualizing, 1), device);
+  });
+  mark_invalid(light_field, result);
+  complete_provenance(result, info.id, light_field, watch.seconds());
+  if (equalized) result.notes.push_back(equalized->note);
+  return result;
+}
+
+BlockwiseRun Estimator::in_blocks(const LightField& given, EvenViews& even,
+                                  const ParameterSet& values, const RunOptions& options,
+                                  const Progress& progress) const {
+  require_device(options.device, info);
+  const Progress limited = progress.limited_to(options.threads);
+  const EvenLightFieldPtr equalized = equalized_for(info, given, even, limited.part(0, 0.5));
+  const LightField& light_field = equalized ? equalized->light_field : given;
+  BlockwiseRun run = blocks(light_field, values, options.views, limited.part(0.5, 1));
+  complete_provenance(run.provenance, info.id, light_field, 0);
+  run.provenance.device = kCpu;
+  if (!equalized) return run;
+  run.provenance.notes.push_back(equalized->note);
+  for (BlockPass& pass : run.passes) pass = forgetting(equalized, std::move(pass));
+  return run;
+}
 
 void require_memory(const BlockwiseRun& run, BlockMemory memory) {
   constexpr double kMegabyte = 1e6;

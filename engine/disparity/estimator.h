@@ -99,8 +99,8 @@ struct BlockwiseRun {
 
 /// Sets maps of some views of the light field, whole or rows from `first_row` on, to 0 where its
 /// pixels are invalid.
-void clear_invalid(const LightField& light_field, ViewStack<float>& maps, int first_row = 0);
-void clear_invalid(const LightField& light_field, ViewStack<std::uint8_t>& maps, int first_row = 0);
+template <class T>  // float, std::uint8_t
+void clear_invalid(const LightField& light_field, ViewStack<T>& maps, int first_row = 0);
 
 /// Marks the results of invalid pixels as not valid; sets their confidence and number of layers to
 /// 0.

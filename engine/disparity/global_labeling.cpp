@@ -3,11 +3,11 @@
 
 #include "engine/core/finding.h"
 #include "engine/core/parallel.h"
-#include "engine/cuda/lifted_solver.h"
+#include "engine/cuda/layer_solver.h"
 #include "engine/cuda/tv_l2.h"
 #include "engine/disparity/denoise.h"
-#include "engine/solvers/lifted_labeling.h"
-#include "engine/solvers/pair_limits.h"
+#include "engine/solvers/layered_sweep.h"
+#include "engine/solvers/simplex_labeling.h"
 #include "engine/solvers/tv_l2.h"
 
 #include <fmt/format.h>

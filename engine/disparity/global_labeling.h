@@ -60,7 +60,7 @@ struct GlobalLabelingData {
   cuda::SharedVolume on_device;  ///< The costs, instead of `cost`, for the device; null = none.
 };
 
-/// Disparity of one view by a globally optimal labeling (engine/solvers/lifted_labeling.h):
+/// Disparity of one view by a globally optimal labeling (engine/solvers/simplex_labeling.h):
 /// min Σ ρ(x, u) + λ·scale·Σ g |∇u|, u in px among the labels, g = exp(−β |∇I|) from the view,
 /// without its noise (smoothness_weights).
 /// λ·scale, energy, gap and iterations go to the notes of `estimate`, the map to `estimate.field`.

@@ -2,6 +2,7 @@
 #include "engine/disparity/kz02.h"
 
 #include "engine/core/finding.h"
+#include "engine/core/numbers.h"
 #include "engine/core/parallel.h"
 #include "engine/disparity/disparity_range.h"
 #include "engine/disparity/stereo_costs.h"
@@ -9,9 +10,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
+#include <numeric>
 
 namespace episcope {
 
@@ -34,6 +38,78 @@ Image<char> RecentChanges::since(int label) const {
 }
 
 namespace {
+
+SideView side_view(ViewIndex view, ViewIndex reference, const std::vector<float>& labels) {
+  SideView side{.view = view, .is_vertical = view.v != reference.v};
+  const int steps = side.is_vertical ? view.v - reference.v : view.u - reference.u;
+  for (const float label : labels) {
+    const float exact = -label * static_cast<float>(steps);
+    side.shift.push_back(static_cast<int>(std::lround(exact)));
+    side.beyond.push_back(exact - static_cast<float>(side.shift.back()));
+  }
+  return side;
+}
+
+// Rows in which K is measured, and the least it can be: a step of 8-bit samples, squared.
+constexpr int kProbedEnergyRows = 48;
+constexpr double kMinLimit = 1;
+constexpr double kPublishedLimit = 30;
+constexpr double kLimitInLeast = 3;
+
+// Four samples of a row or column around a place between pixels, Catmull-Rom.
+struct SampleTaps {
+  int first = -1;
+  std::array<float, 4> weights{};
+};
+
+// At `t` in [−½, ½] from a pixel.
+SampleTaps taps_at(float t) {
+  SampleTaps taps{.first = t < 0 ? -2 : -1};
+  if (t < 0) t += 1;
+  taps.weights = {t * (-0.5F + t * (1 - 0.5F * t)), 1 + t * t * (-2.5F + 1.5F * t),
+                  t * (0.5F + t * (2 - 1.5F * t)), t * t * (-0.5F + 0.5F * t)};
+  return taps;
+}
+
+// Adds the squared differences between samples and others interpolated `step` apart.
+void add_squares(const float* samples, const float* others, const SampleTaps& taps, long step,
+                 int count, float scale, float* out) {
+  const float* const from = others + taps.first * step;
+  const auto [a, b, c, d] = taps.weights;
+  for (int x = 0; x < count; ++x) {
+    const float other =
+        a * from[x] + b * from[x + step] + c * from[x + 2 * step] + d * from[x + 3 * step];
+    const float difference = samples[x] - other;
+    out[x] += scale * difference * difference;
+  }
+}
+
+void add_squares(const float* samples, const float* others, int count, float scale, float* out) {
+  for (int x = 0; x < count; ++x) {
+    const float difference = samples[x] - others[x];
+    out[x] += scale * difference * difference;
+  }
+}
+
+// Neighbors that differ less belong to one surface, so more speaks against a jump there.
+constexpr float kAlike = 8;
+constexpr std::int32_t kAlikeFactor = 3;
+
+// λ_pq of every pixel and the one `dy` rows below and `dx` columns to the right.
+Image<std::int32_t> neighbor_weights(const CameraImage& image, int height, int width, int dy,
+                                     int dx, std::int32_t weight) {
+  Image<std::int32_t> weights(height, width);
+  for (int y = 0; y < height - dy; ++y) {
+    for (int x = 0; x < width - dx; ++x) {
+      bool alike = true;
+      for (int c = 0; c < image.channels(); ++c) {
+        alike = alike && std::fabs(image.row(c, y)[x] - image.row(c, y + dy)[x + dx]) < kAlike;
+      }
+      weights.at(y, x) = alike ? kAlikeFactor * weight : weight;
+    }
+  }
+  return weights;
+}
 
 constexpr CutGraph::Cost kForbidden = CutGraph::kForbidden;
 
@@ -79,7 +155,363 @@ PairCosts costs_at_old_label(int f_p, int f_q, int alpha, CutGraph::Cost gain) {
   return {0, looks_through, 0, 0};
 }
 
+// λ of the published heuristic, in K [KMT14].
+constexpr double kPublishedSmoothness = 0.2;
+
+// Share of the time that is left after `cycle` cycles: most labels find their place in the first.
+double time_left(int cycle) {
+  return std::pow(0.2, cycle);
+}
+
+// The middle label, those half-way to the ends, and so on.
+std::vector<int> coarse_to_fine(int labels) {
+  std::vector<int> order;
+  std::vector<char> is_listed(labels, 0);
+  for (int step = labels; step >= 1; step /= 2) {
+    for (int label = step / 2; label < labels; label += step) {
+      if (is_listed[label] == 0) order.push_back(label);
+      is_listed[label] = 1;
+    }
+  }
+  for (int label = 0; label < labels; ++label) {
+    if (is_listed[label] == 0) order.push_back(label);
+  }
+  return order;
+}
+
+struct Expanded {
+  int cycles = 0;  // begun
+  bool converged = false;
+  std::int64_t change = 0;  // of the energy
+};
+
+Expanded expand_all(const Kz02Parameters& parameters, LabelExpansion& expansion,
+                    const Progress& progress) {
+  Expanded result;
+  const std::vector<int> order = coarse_to_fine(parameters.labels);
+  int unchanged = 0;  // labels in succession
+  for (; result.cycles < parameters.cycles && !result.converged; ++result.cycles) {
+    const Progress cycle =
+        progress.part(1 - time_left(result.cycles), 1 - time_left(result.cycles + 1));
+    for (std::size_t i = 0; i < order.size() && !result.converged; ++i) {
+      const auto change = expansion.expand(order[i], cycle);
+      if (!change) return result;
+      result.change += *change;
+      unchanged = *change < 0 ? 0 : unchanged + 1;
+      result.converged = unchanged >= parameters.labels;
+      cycle.report(static_cast<double>(i + 1) / static_cast<double>(order.size()));
+    }
+  }
+  progress.report(1);
+  return result;
+}
+
+// Disparities of the labels, and as confidence which share of the possible gain is reached.
+void read_labels(const LabelExpansion& expansion, const Interactions& interactions,
+                 const std::vector<float>& labels, ViewIndex view, Estimate& estimate) {
+  const Image<std::int16_t>& f = expansion.labels()[0];
+  const int sides = static_cast<int>(interactions.sides().size());
+  estimate.field.disparity = ViewStack<float>({1, 1}, f.height(), f.width(), 1, view);
+  estimate.confidence = ViewStack<float>({1, 1}, f.height(), f.width(), 1, view);
+  const auto most = static_cast<float>(sides * Interactions::kUnit);
+  for (int y = 0; y < f.height(); ++y) {
+    for (int x = 0; x < f.width(); ++x) {
+      int gain = 0;
+      for (int side = 0; side < sides; ++side) gain -= expansion.gain(side, y, x);
+      estimate.field.disparity.view(view).at(y, x) = labels[f.at(y, x)];
+      estimate.confidence.view(view).at(y, x) = static_cast<float>(gain) / most;
+    }
+  }
+}
+
+// Moves each pixel between its label and the next by the matching costs over all views.
+void refine(const LightField& lf, const Kz02Parameters& parameters, const Image<std::int16_t>& f,
+            ViewIndex view, Estimate& estimate, const Progress& progress) {
+  const StereoCosts costs = prepare_stereo(
+      lf, MatchedViews::All, {.labels = parameters.labels, .range = estimate.range, .view = view},
+      progress.part(0, 0.1));
+  const float step = costs.labels[1] - costs.labels[0];
+  const ImageView<float> disparity = estimate.field.disparity.view(view);
+  const int rows = stereo_band_rows(lf.height());
+  parallel_for_workers((lf.height() + rows - 1) / rows, progress.part(0.1, 1), [&] {
+    return [&, source = StereoCostRows(lf, costs)](int i) mutable {
+      const int first = i * rows;
+      const auto band = source.compute(first, std::min(rows, lf.height() - first), progress);
+      for (int y = 0; y < band.height; ++y) {
+        for (int x = 0; x < band.width; ++x) {
+          const int label = f.at(first + y, x);
+          if (label == 0 || label + 1 == band.layers) continue;
+          disparity.at(first + y, x) +=
+              step * sub_label_offset(band.at(y, label - 1, x), band.at(y, label, x),
+                                      band.at(y, label + 1, x), parameters.refinement);
+        }
+      }
+    };
+  });
+}
+
+Schema<Matching> matching_schema() {
+  using P = Matching;
+  return Schema<P>()
+      .choice("comparison", &P::comparison,
+              {"Comparison",
+               "Whether views are compared at the nearest pixels or interpolated between them"})
+      .real("limit", &P::limit,
+            {"Match limit K",
+             "Two pixels can see the same point if their squared difference, the mean over the "
+             "channels, is less; 0 finds it by the rule below",
+             "(1/255)²"},
+            {0, 10000})
+      .choice(
+          "limit_rule", &P::rule,
+          {"Automatic limit K",
+           "noise: three times the least difference of a pixel at any label, the median over "
+           "pixels, at least 30; quarter: the mean of what a quarter of the labels fall below"});
+}
+
+Schema<Kz02Parameters> kz02_schema() {
+  using P = Kz02Parameters;
+  return Schema<P>()
+      .part(&P::profile, profile_schema())
+      .integer("labels", &P::labels,
+               {"Disparity steps", "Number of equidistant disparities tested"}, {2, 512, true})
+      .integer("distance", &P::distance,
+               {"Side view distance",
+                "How far the views on the left, on the right, above and below are from the "
+                "estimated one. Farther views tell disparities apart better but see less of what "
+                "is partly occluded",
+                "view steps"},
+               {1, 16})
+      .part(&P::matching, matching_schema())
+      .real("smoothness", &P::smoothness,
+            {"Smoothness λ",
+             "Cost of a jump by one label between neighbors, as a multiple of K; "
+             "three times as much where they have the same color"},
+            {0, 4})
+      .integer("truncation", &P::truncation,
+               {"Truncation T", "Jumps by more steps cost no more", "steps"}, {1, 64, true})
+      .integer("cycles", &P::cycles,
+               {"Maximum cycles", "How often every label is expanded, at most"}, {1, 100, true})
+      .choice("refinement", &P::refinement,
+              {"Refinement",
+               "How the disparity is interpolated between labels, from the costs over all views"})
+      .interval("range", &P::range, {"Disparity range", kRangeHelp, "px"}, {-20, 20})
+      .view("view", &P::view,
+            {"View", "Row and column of the view to estimate; auto = center view"})
+      .search("smoothness", {0.005, 0.01, 0.02, 0.05, 0.2})
+      .search("distance", {2, 3, 4})
+      .preset(kProfileKey, kPaperProfile,
+              {{"comparison", std::string("whole_pixels")},
+               {"limit_rule", std::string("quarter")},
+               {"refinement", std::string("none")},
+               {"smoothness", kPublishedSmoothness}});
+}
+
 }  // namespace
+
+std::vector<SideView> side_views(GridShape grid, ViewIndex reference, int distance,
+                                 const std::vector<float>& labels) {
+  std::vector<SideView> sides;
+  const auto add = [&](int v, int u) {
+    const ViewIndex view{std::clamp(v, 0, grid.v - 1), std::clamp(u, 0, grid.u - 1)};
+    if (view != reference) sides.push_back(side_view(view, reference, labels));
+  };
+  add(reference.v, reference.u - distance);
+  add(reference.v, reference.u + distance);
+  add(reference.v - distance, reference.u);
+  add(reference.v + distance, reference.u);
+  return sides;
+}
+
+CameraImage::CameraImage(const LightField& lf, ViewIndex view) {
+  const int height = lf.height(), width = lf.width(), channels = lf.channels();
+  const Image<float> samples = lf.view_as_float(view);
+  for (int c = 0; c < channels; ++c) {
+    Image<float>& plane = planes_.emplace_back(height + 2 * kMargin, width + 2 * kMargin);
+    for (int row = 0; row < plane.height(); ++row) {
+      const int y = std::clamp(row - kMargin, 0, height - 1);
+      for (int column = 0; column < plane.width(); ++column) {
+        const int x = std::clamp(column - kMargin, 0, width - 1);
+        plane.at(row, column) = lf.is_valid(view, y, x) ? 255 * samples.at(y, x, c)
+                                                        : std::numeric_limits<float>::quiet_NaN();
+      }
+    }
+  }
+}
+
+Names<PixelComparison> names_of(PixelComparison) {
+  return {{PixelComparison::BetweenPixels, "between_pixels", "between pixels"},
+          {PixelComparison::WholePixels, "whole_pixels", "whole pixels"}};
+}
+
+Names<LimitRule> names_of(LimitRule) {
+  return {{LimitRule::Noise, "noise"}, {LimitRule::Quarter, "quarter", "quarter of the labels"}};
+}
+
+Interactions::Interactions(const LightField& lf, ViewIndex reference, std::vector<SideView> sides,
+                           const Matching& matching, const Progress& progress)
+    : height_(lf.height()),
+      width_(lf.width()),
+      comparison_(matching.comparison),
+      limit_(matching.limit),
+      sides_(std::move(sides)) {
+  images_.emplace_back(lf, reference);
+  for (const SideView& side : sides_) {
+    progress.check();
+    images_.emplace_back(lf, side.view);
+  }
+  if (limit_ == 0) find_limit(matching.rule, progress);
+}
+
+Interactions::Seen Interactions::differences(int side, int label, int y, float* out) const {
+  const SideView& there = sides_[side];
+  const PixelIndex at = there.place(y, 0, label);
+  if (at.y < 0 || at.y >= height_) return {};
+  const Seen seen{std::clamp(-at.x, 0, width_), std::clamp(width_ - at.x, 0, width_)};
+  const int count = seen.last - seen.first;
+  if (count <= 0) return {};
+  const CameraImage &here = images_[0], &other = images_[side + 1];
+  std::fill_n(out + seen.first, count, 0.0F);
+  const float beyond = there.beyond[label];
+  const long step = there.is_vertical ? here.pitch() : 1;
+  const auto channels = static_cast<float>(here.channels());
+  for (int c = 0; c < here.channels(); ++c) {
+    const float* const p = here.row(c, y) + seen.first;
+    const float* const q = other.row(c, at.y) + at.x + seen.first;
+    if (comparison_ == PixelComparison::WholePixels) {
+      add_squares(p, q, count, 1 / channels, out + seen.first);
+    } else {
+      add_squares(p, q, taps_at(beyond), step, count, 0.5F / channels, out + seen.first);
+      add_squares(q, p, taps_at(-beyond), step, count, 0.5F / channels, out + seen.first);
+    }
+  }
+  return seen;
+}
+
+void Interactions::gains(int side, int label, int y, std::int32_t* out) const {
+  thread_local std::vector<float> squares;
+  squares.resize(width_);
+  const Seen seen = differences(side, label, y, squares.data());
+  std::fill_n(out, seen.first, 0);
+  const auto scale = static_cast<float>(kUnit / limit_);
+  for (int x = seen.first; x < seen.last; ++x) {
+    const float gain = squares[x] * scale - kUnit;  // NaN gains nothing
+    out[x] = gain < 0 ? static_cast<std::int32_t>(gain - 0.5F) : 0;
+  }
+  std::fill(out + seen.last, out + width_, 0);
+}
+
+// The differences of each pixel of a row and side view that see a point, sorted by label: the one
+// of that rank.
+std::vector<float> Interactions::differences_of_rank(int y, int rank) const {
+  std::vector<float> found, of_pixel(labels());
+  Image<float> all(labels(), width_);
+  for (int side = 0; side < static_cast<int>(sides_.size()); ++side) {
+    std::fill(all.begin(), all.end(), INFINITY);
+    for (int label = 0; label < labels(); ++label) {
+      (void)differences(side, label, y, all.row(label));
+    }
+    for (int x = 0; x < width_; ++x) {
+      for (int label = 0; label < labels(); ++label) of_pixel[label] = all.at(label, x);
+      // NaN must not be sorted.
+      std::ranges::replace_if(
+          of_pixel, [](float d) { return !(d < INFINITY); }, INFINITY);
+      std::ranges::nth_element(of_pixel, of_pixel.begin() + rank);
+      if (of_pixel[rank] < INFINITY) found.push_back(of_pixel[rank]);
+    }
+  }
+  return found;
+}
+
+void Interactions::find_limit(LimitRule rule, const Progress& progress) {
+  const int rows = std::min(kProbedEnergyRows, height_);
+  const int quarter = std::clamp(labels() / 4, std::min(3, labels()), labels()) - 1;
+  std::vector<std::vector<float>> of_rows(rows);
+  parallel_for(rows, progress, [&](int i) {
+    const int y = (2 * i + 1) * height_ / (2 * rows);
+    of_rows[i] = differences_of_rank(y, rule == LimitRule::Quarter ? quarter : 0);
+  });
+  std::vector<float> all;
+  for (const std::vector<float>& row : of_rows) all.insert(all.end(), row.begin(), row.end());
+  limit_ = rule == LimitRule::Quarter ? kMinLimit : kPublishedLimit;
+  if (all.empty()) return;
+  const double mean =
+      std::accumulate(all.begin(), all.end(), 0.0) / static_cast<double>(all.size());
+  limit_ = std::max(limit_, rule == LimitRule::Quarter ? mean : kLimitInLeast * quantile(all, 0.5));
+}
+
+MultiCameraEnergy::MultiCameraEnergy(const Interactions& interactions, CameraSmoothness smoothness)
+    : interactions_(interactions), truncation_(smoothness.truncation) {
+  const int height = interactions.height(), width = interactions.width();
+  for (int view = 0; view <= static_cast<int>(interactions.sides().size()); ++view) {
+    const CameraImage& image = interactions.image(view);
+    to_right_.push_back(neighbor_weights(image, height, width, 0, 1, smoothness.weight));
+    below_.push_back(neighbor_weights(image, height, width, 1, 0, smoothness.weight));
+  }
+}
+
+CameraLabels MultiCameraEnergy::farthest() const {
+  return CameraLabels(views(), Image<std::int16_t>(interactions_.height(), interactions_.width()));
+}
+
+std::int64_t MultiCameraEnergy::smoothness_of(const CameraLabels& labels) const {
+  std::int64_t sum = 0;
+  for (int view = 0; view < views(); ++view) {
+    const Image<std::int16_t>& f = labels[view];
+    for (int y = 0; y < f.height(); ++y) {
+      for (int x = 0; x < f.width(); ++x) {
+        const int here = f.at(y, x);
+        const auto jump = [&](int y1, int x1) {
+          return std::min(std::abs(here - f.at(y1, x1)), truncation_);
+        };
+        if (x + 1 < f.width()) sum += to_right(view, y)[x] * jump(y, x + 1);
+        if (y + 1 < f.height()) sum += below(view, y)[x] * jump(y + 1, x);
+      }
+    }
+  }
+  return sum;
+}
+
+bool MultiCameraEnergy::is_visible(const CameraLabels& labels) const {
+  const Image<std::int16_t>& reference = labels[0];
+  const auto blocked = [](const Image<std::int16_t>& f, PixelIndex at, int label) {
+    return at.y >= 0 && at.y < f.height() && at.x >= 0 && at.x < f.width() &&
+           f.at(at.y, at.x) < label;
+  };
+  for (int side = 0; side + 1 < views(); ++side) {
+    const SideView& there = interactions_.sides()[side];
+    const Image<std::int16_t>& other = labels[side + 1];
+    for (int y = 0; y < reference.height(); ++y) {
+      for (int x = 0; x < reference.width(); ++x) {
+        const int p = reference.at(y, x), q = other.at(y, x);
+        if (blocked(other, there.place(y, x, p), p)) return false;
+        if (blocked(reference, there.place_in_reference(y, x, q), q)) return false;
+      }
+    }
+  }
+  return true;
+}
+
+std::optional<std::int64_t> MultiCameraEnergy::of(const CameraLabels& labels) const {
+  if (!is_visible(labels)) return std::nullopt;
+  std::int64_t sum = smoothness_of(labels);
+  const Image<std::int16_t>& reference = labels[0];
+  std::vector<std::int32_t> gains(reference.width());
+  for (int side = 0; side + 1 < views(); ++side) {
+    const SideView& there = interactions_.sides()[side];
+    for (int y = 0; y < reference.height(); ++y) {
+      for (int label = 0; label < interactions_.labels(); ++label) {
+        interactions_.gains(side, label, y, gains.data());
+        for (int x = 0; x < reference.width(); ++x) {
+          if (gains[x] == 0 || reference.at(y, x) != label) continue;
+          const PixelIndex q = there.place(y, x, label);
+          if (labels[side + 1].at(q.y, q.x) == label) sum += gains[x];
+        }
+      }
+    }
+  }
+  return sum;
+}
 
 LabelExpansion::LabelExpansion(const MultiCameraEnergy& energy, CameraLabels start)
     : energy_(energy),
@@ -240,162 +672,6 @@ void LabelExpansion::take(int alpha, const MinimalCut& cut) {
     }
   }
 }
-
-namespace {
-
-// λ of the published heuristic, in K [KMT14].
-constexpr double kPublishedSmoothness = 0.2;
-
-// Share of the time that is left after `cycle` cycles: most labels find their place in the first.
-double time_left(int cycle) {
-  return std::pow(0.2, cycle);
-}
-
-// The middle label, those half-way to the ends, and so on.
-std::vector<int> coarse_to_fine(int labels) {
-  std::vector<int> order;
-  std::vector<char> is_listed(labels, 0);
-  for (int step = labels; step >= 1; step /= 2) {
-    for (int label = step / 2; label < labels; label += step) {
-      if (is_listed[label] == 0) order.push_back(label);
-      is_listed[label] = 1;
-    }
-  }
-  for (int label = 0; label < labels; ++label) {
-    if (is_listed[label] == 0) order.push_back(label);
-  }
-  return order;
-}
-
-struct Expanded {
-  int cycles = 0;  // begun
-  bool converged = false;
-  std::int64_t change = 0;  // of the energy
-};
-
-Expanded expand_all(const Kz02Parameters& parameters, LabelExpansion& expansion,
-                    const Progress& progress) {
-  Expanded result;
-  const std::vector<int> order = coarse_to_fine(parameters.labels);
-  int unchanged = 0;  // labels in succession
-  for (; result.cycles < parameters.cycles && !result.converged; ++result.cycles) {
-    const Progress cycle =
-        progress.part(1 - time_left(result.cycles), 1 - time_left(result.cycles + 1));
-    for (std::size_t i = 0; i < order.size() && !result.converged; ++i) {
-      const auto change = expansion.expand(order[i], cycle);
-      if (!change) return result;
-      result.change += *change;
-      unchanged = *change < 0 ? 0 : unchanged + 1;
-      result.converged = unchanged >= parameters.labels;
-      cycle.report(static_cast<double>(i + 1) / static_cast<double>(order.size()));
-    }
-  }
-  progress.report(1);
-  return result;
-}
-
-// Disparities of the labels, and as confidence which share of the possible gain is reached.
-void read_labels(const LabelExpansion& expansion, const Interactions& interactions,
-                 const std::vector<float>& labels, ViewIndex view, Estimate& estimate) {
-  const Image<std::int16_t>& f = expansion.labels()[0];
-  const int sides = static_cast<int>(interactions.sides().size());
-  estimate.field.disparity = ViewStack<float>({1, 1}, f.height(), f.width(), 1, view);
-  estimate.confidence = ViewStack<float>({1, 1}, f.height(), f.width(), 1, view);
-  const auto most = static_cast<float>(sides * Interactions::kUnit);
-  for (int y = 0; y < f.height(); ++y) {
-    for (int x = 0; x < f.width(); ++x) {
-      int gain = 0;
-      for (int side = 0; side < sides; ++side) gain -= expansion.gain(side, y, x);
-      estimate.field.disparity.view(view).at(y, x) = labels[f.at(y, x)];
-      estimate.confidence.view(view).at(y, x) = static_cast<float>(gain) / most;
-    }
-  }
-}
-
-// Moves each pixel between its label and the next by the matching costs over all views.
-void refine(const LightField& lf, const Kz02Parameters& parameters, const Image<std::int16_t>& f,
-            ViewIndex view, Estimate& estimate, const Progress& progress) {
-  const StereoCosts costs = prepare_stereo(
-      lf, MatchedViews::All, {.labels = parameters.labels, .range = estimate.range, .view = view},
-      progress.part(0, 0.1));
-  const float step = costs.labels[1] - costs.labels[0];
-  const ImageView<float> disparity = estimate.field.disparity.view(view);
-  const int rows = stereo_band_rows(lf.height());
-  parallel_for_workers((lf.height() + rows - 1) / rows, progress.part(0.1, 1), [&] {
-    return [&, source = StereoCostRows(lf, costs)](int i) mutable {
-      const int first = i * rows;
-      const auto band = source.compute(first, std::min(rows, lf.height() - first), progress);
-      for (int y = 0; y < band.height; ++y) {
-        for (int x = 0; x < band.width; ++x) {
-          const int label = f.at(first + y, x);
-          if (label == 0 || label + 1 == band.layers) continue;
-          disparity.at(first + y, x) +=
-              step * sub_label_offset(band.at(y, label - 1, x), band.at(y, label, x),
-                                      band.at(y, label + 1, x), parameters.refinement);
-        }
-      }
-    };
-  });
-}
-
-Schema<Matching> matching_schema() {
-  using P = Matching;
-  return Schema<P>()
-      .choice("comparison", &P::comparison,
-              {"Comparison",
-               "Whether views are compared at the nearest pixels or interpolated between them"})
-      .real("limit", &P::limit,
-            {"Match limit K",
-             "Two pixels can see the same point if their squared difference, the mean over the "
-             "channels, is less; 0 finds it by the rule below",
-             "(1/255)²"},
-            {0, 10000})
-      .choice(
-          "limit_rule", &P::rule,
-          {"Automatic limit K",
-           "noise: three times the least difference of a pixel at any label, the median over "
-           "pixels, at least 30; quarter: the mean of what a quarter of the labels fall below"});
-}
-
-Schema<Kz02Parameters> kz02_schema() {
-  using P = Kz02Parameters;
-  return Schema<P>()
-      .part(&P::profile, profile_schema())
-      .integer("labels", &P::labels,
-               {"Disparity steps", "Number of equidistant disparities tested"}, {2, 512, true})
-      .integer("distance", &P::distance,
-               {"Side view distance",
-                "How far the views on the left, on the right, above and below are from the "
-                "estimated one. Farther views tell disparities apart better but see less of what "
-                "is partly occluded",
-                "view steps"},
-               {1, 16})
-      .part(&P::matching, matching_schema())
-      .real("smoothness", &P::smoothness,
-            {"Smoothness λ",
-             "Cost of a jump by one label between neighbors, as a multiple of K; "
-             "three times as much where they have the same color"},
-            {0, 4})
-      .integer("truncation", &P::truncation,
-               {"Truncation T", "Jumps by more steps cost no more", "steps"}, {1, 64, true})
-      .integer("cycles", &P::cycles,
-               {"Maximum cycles", "How often every label is expanded, at most"}, {1, 100, true})
-      .choice("refinement", &P::refinement,
-              {"Refinement",
-               "How the disparity is interpolated between labels, from the costs over all views"})
-      .interval("range", &P::range, {"Disparity range", kRangeHelp, "px"}, {-20, 20})
-      .view("view", &P::view,
-            {"View", "Row and column of the view to estimate; auto = center view"})
-      .search("smoothness", {0.005, 0.01, 0.02, 0.05, 0.2})
-      .search("distance", {2, 3, 4})
-      .preset(kProfileKey, kPaperProfile,
-              {{"comparison", std::string("whole_pixels")},
-               {"limit_rule", std::string("quarter")},
-               {"refinement", std::string("none")},
-               {"smoothness", kPublishedSmoothness}});
-}
-
-}  // namespace
 
 Estimate estimate_kz02(const LightField& lf, const Kz02Parameters& parameters,
                        const Progress& progress) {

@@ -4,7 +4,7 @@
 #include "engine/core/isa.h"
 #include "engine/core/numbers.h"
 #include "engine/core/parallel.h"
-#include "engine/cuda/line_check.h"
+#include "engine/cuda/orientations.h"
 #include "engine/disparity/kernels/shared_constants.h"
 
 #include <algorithm>
@@ -42,50 +42,6 @@ ResidualRow residual_row_at(const PackedViews& views, ViewIndex view) {
   row.has_invalid = views.has_invalid;
   return row;
 }
-
-}  // namespace
-
-LineResiduals::LineResiduals(const PackedViews& views)
-    : views_(views),
-      kernel_(EPISCOPE_CHOOSE_KERNEL(best_isa(), kResidualKernel)),
-      own_(views.pixels.width() + kResidualSlack),
-      slopes_(own_.size()),
-      residual_(own_.size()) {}
-
-void LineResiduals::begin(ViewIndex view) {
-  view_ = view;
-  row_ = residual_row_at(views_, view);
-  row_.own = own_.data();
-  row_.disparity = slopes_.data();
-  row_.residual = residual_.data();
-}
-
-const float* LineResiduals::row(int y, const float* disparity) {
-  std::copy_n(views_.pixels.view(view_).row(y), row_.width, own_.data());
-  std::copy_n(disparity, row_.width, slopes_.data());
-  row_.y = y;
-  kernel_.row(row_);
-  return residual_.data();
-}
-
-float residual_noise(const PackedViews& views, const ViewStack<float>& disparity) {
-  const ViewIndex center = views.pixels.grid().center();
-  return residual_noise(views, center, disparity.view(center));
-}
-
-float residual_noise(const PackedViews& views, ViewIndex view, ImageView<const float> disparity) {
-  LineResiduals residuals(views);
-  residuals.begin(view);
-  std::vector<float> all;
-  for (int y = 0; y < views.pixels.height(); ++y) {
-    const float* const row = residuals.row(y, disparity.row(y));
-    std::copy_if(row, row + views.pixels.width(), std::back_inserter(all),
-                 [](float value) { return std::isfinite(value); });
-  }
-  return all.empty() ? 0 : quantile(all, 0.5);
-}
-
-namespace {
 
 constexpr int kChoiceBandRows = 48;
 
@@ -245,33 +201,6 @@ void SideChooser::choose(int j, float* disparity, float* confidence) {
   std::copy_n(row_.confidence, width_, confidence);
 }
 
-}  // namespace
-
-void choose_sides(const PackedViews& views, Estimate& estimate, const Progress& progress) {
-  choose_sides(views, residual_noise(views, estimate.field.disparity), estimate.field.disparity,
-               estimate.confidence, progress);
-}
-
-void choose_sides(const PackedViews& views, float variance, ViewStack<float>& disparity,
-                  ViewStack<float>& confidence, const Progress& progress) {
-  const GridShape grid = disparity.grid();
-  const int bands = (disparity.height() + kChoiceBandRows - 1) / kChoiceBandRows;
-  for (int i = 0; i < grid.count(); ++i) {
-    const ViewIndex view = grid.view_at(i, disparity.first());
-    const ImageView<float> d = disparity.view(view), r = confidence.view(view);
-    const Before before{view, padded_map(d), padded_map(r)};
-    const double count = grid.count();
-    parallel_for_workers(bands, progress.part(i / count, (i + 1) / count), [&] {
-      return [&, chooser = SideChooser(views, variance, before)](int band) mutable {
-        const int y = band * kChoiceBandRows;
-        chooser.decide(y, std::min(y + kChoiceBandRows, d.height), d, r);
-      };
-    });
-  }
-}
-
-namespace {
-
 // Rows of packed samples, each with the nearest neighbors before and after it in place of those
 // beyond the border: see GradientRow.
 class MirroredRows {
@@ -376,6 +305,69 @@ class Trust {
 };
 
 }  // namespace
+
+LineResiduals::LineResiduals(const PackedViews& views)
+    : views_(views),
+      kernel_(EPISCOPE_CHOOSE_KERNEL(best_isa(), kResidualKernel)),
+      own_(views.pixels.width() + kResidualSlack),
+      slopes_(own_.size()),
+      residual_(own_.size()) {}
+
+void LineResiduals::begin(ViewIndex view) {
+  view_ = view;
+  row_ = residual_row_at(views_, view);
+  row_.own = own_.data();
+  row_.disparity = slopes_.data();
+  row_.residual = residual_.data();
+}
+
+const float* LineResiduals::row(int y, const float* disparity) {
+  std::copy_n(views_.pixels.view(view_).row(y), row_.width, own_.data());
+  std::copy_n(disparity, row_.width, slopes_.data());
+  row_.y = y;
+  kernel_.row(row_);
+  return residual_.data();
+}
+
+float residual_noise(const PackedViews& views, const ViewStack<float>& disparity) {
+  const ViewIndex center = views.pixels.grid().center();
+  return residual_noise(views, center, disparity.view(center));
+}
+
+float residual_noise(const PackedViews& views, ViewIndex view, ImageView<const float> disparity) {
+  LineResiduals residuals(views);
+  residuals.begin(view);
+  std::vector<float> all;
+  for (int y = 0; y < views.pixels.height(); ++y) {
+    const float* const row = residuals.row(y, disparity.row(y));
+    std::copy_if(row, row + views.pixels.width(), std::back_inserter(all),
+                 [](float value) { return std::isfinite(value); });
+  }
+  return all.empty() ? 0 : quantile(all, 0.5);
+}
+
+void choose_sides(const PackedViews& views, Estimate& estimate, const Progress& progress) {
+  choose_sides(views, residual_noise(views, estimate.field.disparity), estimate.field.disparity,
+               estimate.confidence, progress);
+}
+
+void choose_sides(const PackedViews& views, float variance, ViewStack<float>& disparity,
+                  ViewStack<float>& confidence, const Progress& progress) {
+  const GridShape grid = disparity.grid();
+  const int bands = (disparity.height() + kChoiceBandRows - 1) / kChoiceBandRows;
+  for (int i = 0; i < grid.count(); ++i) {
+    const ViewIndex view = grid.view_at(i, disparity.first());
+    const ImageView<float> d = disparity.view(view), r = confidence.view(view);
+    const Before before{view, padded_map(d), padded_map(r)};
+    const double count = grid.count();
+    parallel_for_workers(bands, progress.part(i / count, (i + 1) / count), [&] {
+      return [&, chooser = SideChooser(views, variance, before)](int band) mutable {
+        const int y = band * kChoiceBandRows;
+        chooser.decide(y, std::min(y + kChoiceBandRows, d.height), d, r);
+      };
+    });
+  }
+}
 
 Schema<LineCheck> line_check_schema() {
   return Schema<LineCheck>()

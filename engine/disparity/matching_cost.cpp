@@ -44,53 +44,6 @@ AxisShift make_shift(double shift, int extent, Interpolation interpolation) {
   return result;
 }
 
-}  // namespace
-
-std::vector<double> regular_ways(int places, int reference) {
-  std::vector<double> ways(places);
-  std::iota(ways.begin(), ways.end(), -reference);
-  return ways;
-}
-
-std::vector<double> stated_ways(const std::vector<ViewPlace>& places, std::size_t reference,
-                                double ViewPlace::*axis) {
-  std::vector<double> ways;
-  ways.reserve(places.size());
-  for (const ViewPlace& place : places) ways.push_back(place.*axis - places[reference].*axis);
-  return ways;
-}
-
-std::vector<AxisShift> make_shifts(const std::vector<double>& ways, int extent,
-                                   Interpolation interpolation, const std::vector<float>& labels) {
-  std::vector<AxisShift> shifts;
-  for (const double way : ways) {
-    for (const float label : labels) {
-      // u and v grow against the motion of points.
-      const double shift = -label * way;
-      shifts.push_back(make_shift(shift, extent, interpolation));
-    }
-  }
-  return shifts;
-}
-
-std::vector<float> count_seen(const std::vector<AxisShift>& shifts, int labels, int extent) {
-  std::vector<float> seen(static_cast<std::size_t>(labels) * extent, 0.0F);
-  // How many more views see a pixel than the one before it, and then their sums.
-  for (std::size_t i = 0; i < shifts.size(); ++i) {
-    if (shifts[i].first >= shifts[i].last) continue;
-    float* row = seen.data() + i % labels * extent;
-    row[shifts[i].first] += 1;
-    if (shifts[i].last < extent) row[shifts[i].last] -= 1;
-  }
-  for (int label = 0; label < labels; ++label) {
-    float* row = seen.data() + static_cast<std::size_t>(label) * extent;
-    std::partial_sum(row, row + extent, row);
-  }
-  return seen;
-}
-
-namespace {
-
 // The pixels of one axis that a point at `place` covers, within [0, extent).
 struct Covered {
   int first = 0, last = 0;
@@ -149,6 +102,49 @@ void divide(const float* sums, const float* counts, const float* worst, std::spa
 }
 
 }  // namespace
+
+std::vector<double> regular_ways(int places, int reference) {
+  std::vector<double> ways(places);
+  std::iota(ways.begin(), ways.end(), -reference);
+  return ways;
+}
+
+std::vector<double> stated_ways(const std::vector<ViewPlace>& places, std::size_t reference,
+                                double ViewPlace::*axis) {
+  std::vector<double> ways;
+  ways.reserve(places.size());
+  for (const ViewPlace& place : places) ways.push_back(place.*axis - places[reference].*axis);
+  return ways;
+}
+
+std::vector<AxisShift> make_shifts(const std::vector<double>& ways, int extent,
+                                   Interpolation interpolation, const std::vector<float>& labels) {
+  std::vector<AxisShift> shifts;
+  for (const double way : ways) {
+    for (const float label : labels) {
+      // u and v grow against the motion of points.
+      const double shift = -label * way;
+      shifts.push_back(make_shift(shift, extent, interpolation));
+    }
+  }
+  return shifts;
+}
+
+std::vector<float> count_seen(const std::vector<AxisShift>& shifts, int labels, int extent) {
+  std::vector<float> seen(static_cast<std::size_t>(labels) * extent, 0.0F);
+  // How many more views see a pixel than the one before it, and then their sums.
+  for (std::size_t i = 0; i < shifts.size(); ++i) {
+    if (shifts[i].first >= shifts[i].last) continue;
+    float* row = seen.data() + i % labels * extent;
+    row[shifts[i].first] += 1;
+    if (shifts[i].last < extent) row[shifts[i].last] -= 1;
+  }
+  for (int label = 0; label < labels; ++label) {
+    float* row = seen.data() + static_cast<std::size_t>(label) * extent;
+    std::partial_sum(row, row + extent, row);
+  }
+  return seen;
+}
 
 ViewStack<float> surfaces_in_views(ImageView<const float> disparity, ViewIndex reference,
                                    GridShape grid, const Progress& progress) {

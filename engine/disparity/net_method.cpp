@@ -6,12 +6,10 @@
 #include "engine/core/hash.h"
 #include "engine/disparity/carried_run.h"
 #include "engine/disparity/disparity_range.h"
-#include "engine/disparity/net_evidence.h"
-#include "engine/disparity/net_parts.h"
+#include "engine/disparity/net.h"
+#include "engine/disparity/net_layers.h"
 #include "engine/disparity/net_weights.h"
-#include "engine/disparity/propagate_planes.h"
 #include "engine/disparity/stereo_costs.h"
-#include "engine/disparity/weights_file.h"
 
 #include <fmt/format.h>
 

@@ -3,11 +3,10 @@
 
 #include "engine/core/image.h"
 #include "engine/core/parallel.h"
-#include "engine/cuda/message_labeling.h"
-#include "engine/cuda/tgv_l2.h"
+#include "engine/cuda/layer_solver.h"
 #include "engine/cuda/tv_l2.h"
+#include "engine/solvers/layered_sweep.h"
 #include "engine/solvers/message_labeling.h"
-#include "engine/solvers/pair_limits.h"
 #include "engine/solvers/tv_l2.h"
 
 #include <fmt/format.h>
@@ -38,65 +37,6 @@ MessageResult solve_jumps(const LabelCosts& costs, const MessageProblem& problem
       progress);
   return {std::move(answer.labels), answer.iterations, answer.energy, answer.bound};
 }
-
-}  // namespace
-
-Schema<JumpLabelingParameters> jump_labeling_schema() {
-  using P = JumpLabelingParameters;
-  return Schema<P>()
-      .real("smoothness", &P::smoothness,
-            {"Smoothness λ", "Cost of a px by which neighbors differ, relative to the cap"},
-            {0.001, 100, true})
-      .real("jump", &P::jump,
-            {"Maximum jump", "No pair of neighbors pays for a larger difference than this", "px"},
-            {0.001, 20})
-      .real("edge_strength", &P::edge_strength,
-            {"Edge strength β",
-             "A pair of neighbors is weighted by exp(−β·|difference of their colors|)"},
-            {0, 100})
-      .real("least_weight", &P::least_weight,
-            {"Minimum neighbor weight", "The smallest weight of a pair of neighbors"}, {0, 1})
-      .integer("passes", &P::passes, {"Iterations", "Iterations of the labeling"}, {1, 200, true});
-}
-
-PairWeights pair_weights(const LightField& lf, ViewIndex view, double beta, double least,
-                         const Progress& progress) {
-  const Image<float> image = lf.view_as_float(view);
-  PairWeights weights{Image<float>(lf.height(), lf.width(), 1, 1.0F),
-                      Image<float>(lf.height(), lf.width(), 1, 1.0F)};
-  const double strength = beta * std::sqrt(channel_weight(lf.channels()));
-  const auto weight = [&](PixelIndex a, PixelIndex b) {
-    return static_cast<float>(std::max(least, std::exp(-strength * color_step(image, a, b))));
-  };
-  parallel_for(lf.height(), progress, [&](int y) {
-    for (int x = 0; x < lf.width(); ++x) {
-      if (x + 1 < lf.width()) weights.across.at(y, x) = weight({y, x}, {y, x + 1});
-      if (y + 1 < lf.height()) weights.down.at(y, x) = weight({y, x}, {y + 1, x});
-    }
-  });
-  return weights;
-}
-
-std::string label_with_jumps(const PlaneRefinementData& data, const PairWeights& weights,
-                             const JumpLabelingParameters& parameters, const Progress& progress,
-                             ImageView<float> disparity) {
-  progress.step("labeling");
-  const std::vector<float>& labels = data.costs.stereo().labels;
-  const float step = labels[1] - labels[0];
-  const auto unit = static_cast<float>(parameters.smoothness * data.scale);
-  const MessageProblem problem{data.costs.on_cpu(), weights.across, weights.down, unit * step,
-                               unit * static_cast<float>(parameters.jump)};
-  const MessageResult result =
-      solve_jumps(data.costs, problem, parameters.passes, progress.part(0, 0.95));
-  const Placements placed = data.costs.place(result.labels, progress.part(0.95, 1));
-  for (int y = 0; y < disparity.height; ++y) {
-    std::copy_n(placed.disparity.row(y), disparity.width, disparity.row(y));
-  }
-  return fmt::format("labeling: energy {:.6g}, gap {:.1e} after {} iterations", result.energy,
-                     labeling_gap(result.energy, result.bound), result.iterations);
-}
-
-namespace {
 
 // λ of the denoising of single pixels, as in ST_AV_S, and the weight above which those that are
 // trusted count more than in proportion.
@@ -159,56 +99,6 @@ void settle_doubt(const PlaneRefinementData& data, const PlaneRefinementParamete
     }
   }
 }
-
-}  // namespace
-
-Schema<PlaneRefinementParameters> plane_refinement_schema() {
-  using P = PlaneRefinementParameters;
-  return Schema<P>()
-      .real("tgv", &P::tgv,
-            {"Final denoising", "Strength of the final denoising with TGV²; 0 = off"}, {0, 10})
-      .real("doubt", &P::doubt,
-            {"Uncertain below",
-             "Regions whose mean confidence is below this are uncertain: denoising places their "
-             "pixels by what each says by itself, if that is elsewhere; 0 = none"},
-            {0, 1})
-      .real("leeway", &P::leeway,
-            {"Uncertain: tolerance",
-             "Uncertain pixels keep their label where denoising moves them by no more than this",
-             "px"},
-            {0, 20})
-      .real("bend", &P::bend,
-            {"Curvature cost", "Relative cost of curvature to jumps in the final denoising", "px"},
-            {0.01, 100, true})
-      .integer("tgv_iterations", &P::tgv_iterations,
-               {"Denoising iterations", "Number of iterations of the final denoising"},
-               {1, 5000, true});
-}
-
-void refine_by_planes(const PlaneRefinementData& data, const PlaneRefinementParameters& parameters,
-                      const Progress& progress, ImageView<float> disparity) {
-  if (parameters.tgv <= 0 || progress.finish_requested()) return;
-  progress.step("denoising");
-  Placements seen = observe(data, disparity, progress.part(0, 0.1));
-  const Progress solving = progress.part(0.1, 0.9);
-  if (data.costs.on_device()) {
-    cuda::solve_tgv_l2(seen.disparity, {seen.weight, data.edges, parameters.tgv, parameters.bend},
-                       parameters.tgv_iterations, solving);
-  } else {
-    solve_tgv_l2({seen.disparity, seen.weight, data.edges, parameters.tgv, parameters.bend},
-                 parameters.tgv_iterations, solving, seen.disparity.view());
-  }
-  const float step = label_step(data.costs.stereo());
-  for (int y = 0; y < disparity.height; ++y) {
-    for (int x = 0; x < disparity.width; ++x) {
-      float& d = disparity.at(y, x);
-      d = std::clamp(seen.disparity.at(y, x), d - step, d + step);
-    }
-  }
-  if (parameters.doubt > 0) settle_doubt(data, parameters, progress.part(0.9, 1), disparity);
-}
-
-namespace {
 
 constexpr int kMedianRadius = 4;
 constexpr int kBand = 3;
@@ -333,6 +223,107 @@ class PlacedSilhouettes {
 };
 
 }  // namespace
+
+Schema<JumpLabelingParameters> jump_labeling_schema() {
+  using P = JumpLabelingParameters;
+  return Schema<P>()
+      .real("smoothness", &P::smoothness,
+            {"Smoothness λ", "Cost of a px by which neighbors differ, relative to the cap"},
+            {0.001, 100, true})
+      .real("jump", &P::jump,
+            {"Maximum jump", "No pair of neighbors pays for a larger difference than this", "px"},
+            {0.001, 20})
+      .real("edge_strength", &P::edge_strength,
+            {"Edge strength β",
+             "A pair of neighbors is weighted by exp(−β·|difference of their colors|)"},
+            {0, 100})
+      .real("least_weight", &P::least_weight,
+            {"Minimum neighbor weight", "The smallest weight of a pair of neighbors"}, {0, 1})
+      .integer("passes", &P::passes, {"Iterations", "Iterations of the labeling"}, {1, 200, true});
+}
+
+PairWeights pair_weights(const LightField& lf, ViewIndex view, double beta, double least,
+                         const Progress& progress) {
+  const Image<float> image = lf.view_as_float(view);
+  PairWeights weights{Image<float>(lf.height(), lf.width(), 1, 1.0F),
+                      Image<float>(lf.height(), lf.width(), 1, 1.0F)};
+  const double strength = beta * std::sqrt(channel_weight(lf.channels()));
+  const auto weight = [&](PixelIndex a, PixelIndex b) {
+    return static_cast<float>(std::max(least, std::exp(-strength * color_step(image, a, b))));
+  };
+  parallel_for(lf.height(), progress, [&](int y) {
+    for (int x = 0; x < lf.width(); ++x) {
+      if (x + 1 < lf.width()) weights.across.at(y, x) = weight({y, x}, {y, x + 1});
+      if (y + 1 < lf.height()) weights.down.at(y, x) = weight({y, x}, {y + 1, x});
+    }
+  });
+  return weights;
+}
+
+std::string label_with_jumps(const PlaneRefinementData& data, const PairWeights& weights,
+                             const JumpLabelingParameters& parameters, const Progress& progress,
+                             ImageView<float> disparity) {
+  progress.step("labeling");
+  const std::vector<float>& labels = data.costs.stereo().labels;
+  const float step = labels[1] - labels[0];
+  const auto unit = static_cast<float>(parameters.smoothness * data.scale);
+  const MessageProblem problem{data.costs.on_cpu(), weights.across, weights.down, unit * step,
+                               unit * static_cast<float>(parameters.jump)};
+  const MessageResult result =
+      solve_jumps(data.costs, problem, parameters.passes, progress.part(0, 0.95));
+  const Placements placed = data.costs.place(result.labels, progress.part(0.95, 1));
+  for (int y = 0; y < disparity.height; ++y) {
+    std::copy_n(placed.disparity.row(y), disparity.width, disparity.row(y));
+  }
+  return fmt::format("labeling: energy {:.6g}, gap {:.1e} after {} iterations", result.energy,
+                     labeling_gap(result.energy, result.bound), result.iterations);
+}
+
+Schema<PlaneRefinementParameters> plane_refinement_schema() {
+  using P = PlaneRefinementParameters;
+  return Schema<P>()
+      .real("tgv", &P::tgv,
+            {"Final denoising", "Strength of the final denoising with TGV²; 0 = off"}, {0, 10})
+      .real("doubt", &P::doubt,
+            {"Uncertain below",
+             "Regions whose mean confidence is below this are uncertain: denoising places their "
+             "pixels by what each says by itself, if that is elsewhere; 0 = none"},
+            {0, 1})
+      .real("leeway", &P::leeway,
+            {"Uncertain: tolerance",
+             "Uncertain pixels keep their label where denoising moves them by no more than this",
+             "px"},
+            {0, 20})
+      .real("bend", &P::bend,
+            {"Curvature cost", "Relative cost of curvature to jumps in the final denoising", "px"},
+            {0.01, 100, true})
+      .integer("tgv_iterations", &P::tgv_iterations,
+               {"Denoising iterations", "Number of iterations of the final denoising"},
+               {1, 5000, true});
+}
+
+void refine_by_planes(const PlaneRefinementData& data, const PlaneRefinementParameters& parameters,
+                      const Progress& progress, ImageView<float> disparity) {
+  if (parameters.tgv <= 0 || progress.finish_requested()) return;
+  progress.step("denoising");
+  Placements seen = observe(data, disparity, progress.part(0, 0.1));
+  const Progress solving = progress.part(0.1, 0.9);
+  if (data.costs.on_device()) {
+    cuda::solve_tgv_l2(seen.disparity, {seen.weight, data.edges, parameters.tgv, parameters.bend},
+                       parameters.tgv_iterations, solving);
+  } else {
+    solve_tgv_l2({seen.disparity, seen.weight, data.edges, parameters.tgv, parameters.bend},
+                 parameters.tgv_iterations, solving, seen.disparity.view());
+  }
+  const float step = label_step(data.costs.stereo());
+  for (int y = 0; y < disparity.height; ++y) {
+    for (int x = 0; x < disparity.width; ++x) {
+      float& d = disparity.at(y, x);
+      d = std::clamp(seen.disparity.at(y, x), d - step, d + step);
+    }
+  }
+  if (parameters.doubt > 0) settle_doubt(data, parameters, progress.part(0.9, 1), disparity);
+}
 
 void place_silhouettes(const LightField& lf, ViewIndex view, const Progress& progress,
                        ImageView<float> disparity) {

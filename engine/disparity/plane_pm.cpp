@@ -8,7 +8,6 @@
 #include "engine/core/parallel.h"
 #include "engine/disparity/carried_run.h"
 #include "engine/disparity/matching_cost.h"
-#include "engine/disparity/propagate_planes.h"
 #include "engine/disparity/view_samples.h"
 
 #include <fmt/format.h>
@@ -23,7 +22,6 @@
 #include <vector>
 
 namespace episcope {
-
 namespace {
 
 // Samples that count: beyond, noise and saturation decide.
@@ -210,41 +208,6 @@ double better_fall_off(const Ratios& ratios, const Logs& logs, double k, const P
   }
   return std::clamp(k + sum.product / sum.square, -kMostFallOff, kMostFallOff);
 }
-
-}  // namespace
-
-PhotometricCorrection correction_of_points(const LightField& lf, ViewIndex reference,
-                                           ImageView<const float> disparity,
-                                           const Progress& progress) {
-  const GridShape grid = lf.grid();
-  const int channels = lf.channels();
-  const Points points(lf, reference, disparity);
-  Ratios ratios(static_cast<std::size_t>(grid.count()) * channels, points.count());
-  parallel_for(grid.count(), progress.part(0, 0.6), [&](int i) {
-    if (grid.view_at(i) == reference) return;
-    points.add_ratios(grid.view_at(i), static_cast<std::size_t>(i) * channels, ratios);
-    lf.forget_samples();
-  });
-  PhotometricCorrection correction{.grid = grid};
-  Logs evened(ratios.channels(), ratios.most());
-  remove_fall_off(ratios, 0, progress, evened);
-  for (int i = 0; i < kRounds; ++i) {
-    const double before = correction.fall_off;
-    correction.fall_off = better_fall_off(ratios, evened, before, progress);
-    remove_fall_off(ratios, correction.fall_off, progress, evened);
-    if (std::abs(correction.fall_off - before) < kSmallStep) break;
-  }
-  const std::vector<double> logs = medians(evened, progress);
-  correction.gains.assign(grid.count(), {1, 1, 1});
-  for (int i = 0; i < grid.count(); ++i) {
-    for (int c = 0; c < 3; ++c) {
-      correction.gains[i][c] = std::exp(logs[i * channels + std::min(c, channels - 1)]);
-    }
-  }
-  return correction;
-}
-
-namespace {
 
 struct MapOfView {
   ImageView<const float> disparity, confidence;
@@ -493,6 +456,37 @@ Schema<PlaneParameters> plane_pm_schema() {
 }
 
 }  // namespace
+
+PhotometricCorrection correction_of_points(const LightField& lf, ViewIndex reference,
+                                           ImageView<const float> disparity,
+                                           const Progress& progress) {
+  const GridShape grid = lf.grid();
+  const int channels = lf.channels();
+  const Points points(lf, reference, disparity);
+  Ratios ratios(static_cast<std::size_t>(grid.count()) * channels, points.count());
+  parallel_for(grid.count(), progress.part(0, 0.6), [&](int i) {
+    if (grid.view_at(i) == reference) return;
+    points.add_ratios(grid.view_at(i), static_cast<std::size_t>(i) * channels, ratios);
+    lf.forget_samples();
+  });
+  PhotometricCorrection correction{.grid = grid};
+  Logs evened(ratios.channels(), ratios.most());
+  remove_fall_off(ratios, 0, progress, evened);
+  for (int i = 0; i < kRounds; ++i) {
+    const double before = correction.fall_off;
+    correction.fall_off = better_fall_off(ratios, evened, before, progress);
+    remove_fall_off(ratios, correction.fall_off, progress, evened);
+    if (std::abs(correction.fall_off - before) < kSmallStep) break;
+  }
+  const std::vector<double> logs = medians(evened, progress);
+  correction.gains.assign(grid.count(), {1, 1, 1});
+  for (int i = 0; i < grid.count(); ++i) {
+    for (int c = 0; c < 3; ++c) {
+      correction.gains[i][c] = std::exp(logs[i * channels + std::min(c, channels - 1)]);
+    }
+  }
+  return correction;
+}
 
 Estimate estimate_planes(const LightField& lf, const PlaneParameters& parameters,
                          ViewSelection views, const Progress& progress, Device device) {

@@ -47,7 +47,7 @@ struct PlaneParameters {
 ///    islands filled (engine/disparity/denoise.h).
 /// 4. For all views, also from the outermost views, in one round: what the maps made before show
 ///    there occludes. The maps are carried to every view, and their majority counts
-///    (propagate_planes.h). Beside jumps the samples of each view decide (choose_propagated_sides).
+///    (carried_run.h). Beside jumps the samples of each view decide (choose_propagated_sides).
 ///    Views that were estimated keep their own maps.
 ///
 /// Confidence as in ST_AV_G; of carried views, the mean of those that agree. Results do not depend

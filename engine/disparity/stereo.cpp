@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/stereo.h"
 
-#include "engine/core/parallel.h"
 #include "engine/core/text.h"
 #include "engine/disparity/kernels/shared_constants.h"
 #include "engine/disparity/view_samples.h"
@@ -9,7 +8,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <memory>
 #include <utility>
 
 namespace episcope {
@@ -64,28 +62,20 @@ class Winners {
   std::vector<float> least_, sum_;
 };
 
-// The maps of some rows of the view that the costs are of.
-BlockMaps choose_labels(const LightField& lf, const StereoCosts& costs, Refinement refinement,
-                        const MapBlock& block, const Progress& progress) {
-  BlockMaps maps{{{{1, 1}, block.rows(), lf.width(), 1, costs.view}, {}},
-                 {{1, 1}, block.rows(), lf.width(), 1, costs.view}};
-  const ImageView<float> disparity = maps.field.disparity.view(costs.view);
-  const ImageView<float> confidence = maps.confidence.view(costs.view);
-  const int rows = stereo_band_rows(block.rows());
-  const int bands = (block.rows() + rows - 1) / rows;
+void choose_labels(const LightField& lf, const StereoCosts& costs, Refinement refinement,
+                   Estimate& estimate, const Progress& progress) {
+  const ImageView<float> disparity = estimate.field.disparity.view(costs.view);
+  const ImageView<float> confidence = estimate.confidence.view(costs.view);
   progress.step("matching costs");
-  parallel_for_workers(bands, progress, [&] {
-    return [&, source = StereoCostRows(lf, costs),
-            winners = Winners(costs, refinement, lf.width())](int i) mutable {
-      const int y = i * rows;
-      const auto band =
-          source.compute(block.first_row + y, std::min(rows, block.rows() - y), progress);
-      for (int row = 0; row < band.height; ++row) {
-        winners.choose(band, row, disparity.row(y + row), confidence.row(y + row));
-      }
-    };
-  });
-  return maps;
+  compute_stereo_costs(
+      lf, costs,
+      [&](int y, VolumeView<const float> band) {
+        Winners winners(costs, refinement, lf.width());
+        for (int row = 0; row < band.height; ++row) {
+          winners.choose(band, row, disparity.row(y + row), confidence.row(y + row));
+        }
+      },
+      progress);
 }
 
 void choose_on_device(const LightField& lf, const StereoCosts& costs, Refinement refinement,
@@ -95,43 +85,6 @@ void choose_on_device(const LightField& lf, const StereoCosts& costs, Refinement
       device_matching(compared, costs.view, costs.matching, costs.labels),
       {costs.labels.front(), costs.labels[1] - costs.labels[0], device_refinement(refinement)},
       estimate.field.disparity.view(costs.view), estimate.confidence.view(costs.view), progress);
-}
-
-// The guide and the noise of the view, volumes of costs of every thread, and the samples around a
-// band, of all views that are matched.
-double costs_bytes(const LightField& lf, const StereoCosts& costs, int rows, int threads) {
-  constexpr double kOfView = 64, kMaps = 9, kCost = 4, kMostBandRows = 64 + 32;
-  const double width = lf.width(), pixels = width * lf.height();
-  const double volumes = kCost * kMostBandRows * width * static_cast<double>(costs.labels.size());
-  return kOfView * pixels + kMaps * width * rows + volumes * threads +
-         looked_at_bytes(lf, costs, rows);
-}
-
-// Runs the local method block by block: bands of rows, under costs that were prepared for all.
-BlockwiseRun stereo_local_in_blocks(const LightField& lf, MatchedViews views,
-                                    const StereoLocalParameters& parameters,
-                                    const Progress& progress) {
-  const auto costs =
-      std::make_shared<const StereoCosts>(prepare_stereo(lf, views, parameters.matching, progress));
-  BlockwiseRun run;
-  run.maps = {{1, 1}, costs->view, lf.height(), lf.width()};
-  run.provenance.range = costs->range;
-  run.provenance.notes = cost_notes(*costs);
-  BlockPass pass;
-  pass.step = "matching costs";
-  pass.bytes = [&lf, costs, threads = progress.threads()](int rows) {
-    return costs_bytes(lf, *costs, rows, threads);
-  };
-  pass.compute = [&lf, costs, refinement = parameters.refinement](
-                     const MapBlock& block, const ReadBlock&, const std::vector<double>&,
-                     const Progress& part) {
-    if (costs->matching.views == MatchedViews::All) {
-      lf.fetch_samples(block.first_row, block.end_row);
-    }
-    return FinishedBlock{choose_labels(lf, *costs, refinement, block, part)};
-  };
-  run.passes.push_back(std::move(pass));
-  return run;
 }
 
 // The profile `paper` has no refinement, weights neither data nor variation, and leaves islands; λ
@@ -146,39 +99,6 @@ Schema<StereoLocalParameters> stereo_local_schema(MatchedViews views) {
       .search("epsilon", {0, 0.01, 0.02, 0.05, 0.1, kUncapped})
       .search("aggregation", {0, 2})
       .preset(kProfileKey, kPaperProfile, {{"refinement", std::string("none")}});
-}
-
-// Runs the denoised method in blocks: bands of rows, then the view is denoised as a whole.
-BlockwiseRun stereo_smooth_in_blocks(const LightField& lf, MatchedViews views,
-                                     const StereoSmoothParameters& parameters,
-                                     const Progress& progress) {
-  BlockwiseRun run = stereo_local_in_blocks(lf, views, parameters.local, progress);
-  BlockPass pass;
-  pass.step = "denoising";
-  pass.unit = BlockUnit::Views;
-  pass.bytes = [&lf](int) {
-    constexpr double kMapsAndDenoised = 9 + 96;
-    const double pixels = static_cast<double>(lf.height()) * lf.width();
-    const double view = static_cast<double>(lf.byte_size()) / lf.grid().count();
-    return kMapsAndDenoised * pixels + (lf.is_on_disk() ? view : 0);
-  };
-  pass.compute = [&lf, parameters](const MapBlock& block, const ReadBlock& read,
-                                   const std::vector<double>&, const Progress& part) {
-    FinishedBlock made{read(block)};
-    made.finding = denoise(lf, parameters.denoising,
-                           {DataWeight{}.minimum, static_cast<float>(parameters.map_noise)},
-                           made.maps.field.disparity, made.maps.confidence, part);
-    ViewStack<float>& maps = made.maps.field.disparity;
-    fill_islands(parameters.islands, part.part(1, 1), maps.view(maps.first()));
-    return made;
-  };
-  run.passes.push_back(std::move(pass));
-  run.notes = [costs = std::exchange(run.provenance.notes, {})](const BlockProgress& end) {
-    std::vector<std::string> notes = costs;
-    notes.push_back(gap_note(end.finding));
-    return notes;
-  };
-  return run;
 }
 
 Schema<StereoSmoothParameters> stereo_smooth_schema(MatchedViews views) {
@@ -204,60 +124,6 @@ Schema<StereoSmoothParameters> stereo_smooth_schema(MatchedViews views) {
       .preset(kProfileKey, kPaperProfile, {{"lambda", 0.2}, {"map_noise", 0.0}})
       .preset_search(kProfileKey, kPaperProfile, "lambda", {0.02, 0.05, 0.1, 0.2, 0.4, 0.8});
 }
-
-}  // namespace
-
-Estimate estimate_stereo_local(const LightField& lf, MatchedViews views,
-                               const StereoLocalParameters& parameters, const Progress& progress,
-                               Device device) {
-  const StereoCosts costs =
-      prepare_stereo(lf, views, parameters.matching, progress.part(0, 0.1), device);
-  Estimate estimate;
-  estimate.range = costs.range;
-  if (costs.matcher) {
-    estimate.field.disparity = ViewStack<float>({1, 1}, lf.height(), lf.width(), 1, costs.view);
-    estimate.confidence = ViewStack<float>({1, 1}, lf.height(), lf.width(), 1, costs.view);
-    choose_on_device(lf, costs, parameters.refinement, estimate, progress.part(0.1, 1));
-  } else {
-    BlockMaps maps = choose_labels(lf, costs, parameters.refinement,
-                                   {{costs.view, {1, 1}}, 0, lf.height()}, progress.part(0.1, 1));
-    estimate.field = std::move(maps.field);
-    estimate.confidence = std::move(maps.confidence);
-  }
-  estimate.notes = cost_notes(costs);
-  return estimate;
-}
-
-Estimate estimate_stereo_smooth(const LightField& lf, MatchedViews views,
-                                const StereoSmoothParameters& parameters, const Progress& progress,
-                                Device device) {
-  Estimate estimate =
-      estimate_stereo_local(lf, views, parameters.local, progress.part(0, 0.85), device);
-  denoise(lf, parameters.denoising, estimate, progress.part(0.85, 1), DataWeight{}.minimum,
-          static_cast<float>(parameters.map_noise), device);
-  ViewStack<float>& maps = estimate.field.disparity;
-  fill_islands(parameters.islands, progress.part(1, 1), maps.view(maps.first()));
-  return estimate;
-}
-
-Schema<StereoGlobalParameters> stereo_global_schema(MatchedViews views) {
-  using P = StereoGlobalParameters;
-  return Schema<P>()
-      .part(&P::labeling, global_labeling_schema())
-      .part(&P::matching, stereo_cost_schema(views))
-      .part(&P::islands, island_schema())
-      .begin_with(kProfileKey)
-      .search("smoothness", {0.3, 0.6, 1.2, 2.4, 5, 10})
-      .search("edge_strength", {0, 25})
-      .search("epsilon", {0, 0.02, 0.05, kUncapped})
-      .preset(kProfileKey, kPaperProfile, plain_labeling())
-      .preset(kProfileKey, kPaperProfile, plain_islands())
-      .preset(kProfileKey, kPaperProfile, {{"smoothness", kPaperSmoothness}})
-      .preset_search(kProfileKey, kPaperProfile, "smoothness",
-                     {0.1, 0.2, 0.3, 0.4, 0.6, 0.8, 1.2, 1.6, 2.4});
-}
-
-namespace {
 
 void label_stereo(const LightField& lf, const StereoCosts& stereo,
                   const GlobalLabelingParameters& labeling, Estimate& estimate,
@@ -328,6 +194,50 @@ EstimatorInfo stereo_info(MatchedViews views, char kind, std::string summary,
 
 }  // namespace
 
+Estimate estimate_stereo_local(const LightField& lf, MatchedViews views,
+                               const StereoLocalParameters& parameters, const Progress& progress,
+                               Device device) {
+  const StereoCosts costs =
+      prepare_stereo(lf, views, parameters.matching, progress.part(0, 0.1), device);
+  Estimate estimate;
+  estimate.range = costs.range;
+  estimate.field.disparity = ViewStack<float>({1, 1}, lf.height(), lf.width(), 1, costs.view);
+  estimate.confidence = ViewStack<float>({1, 1}, lf.height(), lf.width(), 1, costs.view);
+  const auto choose = costs.matcher ? choose_on_device : choose_labels;
+  choose(lf, costs, parameters.refinement, estimate, progress.part(0.1, 1));
+  estimate.notes = cost_notes(costs);
+  return estimate;
+}
+
+Estimate estimate_stereo_smooth(const LightField& lf, MatchedViews views,
+                                const StereoSmoothParameters& parameters, const Progress& progress,
+                                Device device) {
+  Estimate estimate =
+      estimate_stereo_local(lf, views, parameters.local, progress.part(0, 0.85), device);
+  denoise(lf, parameters.denoising, estimate, progress.part(0.85, 1), DataWeight{}.minimum,
+          static_cast<float>(parameters.map_noise), device);
+  ViewStack<float>& maps = estimate.field.disparity;
+  fill_islands(parameters.islands, progress.part(1, 1), maps.view(maps.first()));
+  return estimate;
+}
+
+Schema<StereoGlobalParameters> stereo_global_schema(MatchedViews views) {
+  using P = StereoGlobalParameters;
+  return Schema<P>()
+      .part(&P::labeling, global_labeling_schema())
+      .part(&P::matching, stereo_cost_schema(views))
+      .part(&P::islands, island_schema())
+      .begin_with(kProfileKey)
+      .search("smoothness", {0.3, 0.6, 1.2, 2.4, 5, 10})
+      .search("edge_strength", {0, 25})
+      .search("epsilon", {0, 0.02, 0.05, kUncapped})
+      .preset(kProfileKey, kPaperProfile, plain_labeling())
+      .preset(kProfileKey, kPaperProfile, plain_islands())
+      .preset(kProfileKey, kPaperProfile, {{"smoothness", kPaperSmoothness}})
+      .preset_search(kProfileKey, kPaperProfile, "smoothness",
+                     {0.1, 0.2, 0.3, 0.4, 0.6, 0.8, 1.2, 1.6, 2.4});
+}
+
 Estimate estimate_stereo_global(const LightField& lf, MatchedViews views,
                                 const StereoGlobalParameters& parameters, const Progress& progress,
                                 Device device) {
@@ -348,8 +258,7 @@ Estimator stereo_local_estimator(MatchedViews views) {
   const std::string used = views == MatchedViews::All ? "all views" : "the views of the cross-hair";
   return make_estimator<P>(stereo_info(views, 'L', "Local multi-view stereo over " + used,
                                        {"range", "labels", "aggregation"}),
-                           stereo_local_schema(views), with_views<P>(views, estimate_stereo_local),
-                           with_views<P>(views, stereo_local_in_blocks));
+                           stereo_local_schema(views), with_views<P>(views, estimate_stereo_local));
 }
 
 Estimator stereo_smooth_estimator(MatchedViews views) {
@@ -357,8 +266,7 @@ Estimator stereo_smooth_estimator(MatchedViews views) {
   return make_estimator<P>(
       stereo_info(views, 'S', name_of(views, 'L') + ", denoised with total variation (TV-L2)",
                   {"range", "labels", "lambda"}),
-      stereo_smooth_schema(views), with_views<P>(views, estimate_stereo_smooth),
-      with_views<P>(views, stereo_smooth_in_blocks));
+      stereo_smooth_schema(views), with_views<P>(views, estimate_stereo_smooth));
 }
 
 Estimator stereo_global_estimator(MatchedViews views) {

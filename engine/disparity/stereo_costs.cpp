@@ -3,19 +3,46 @@
 
 #include "engine/core/finding.h"
 #include "engine/core/image.h"
+#include "engine/core/isa.h"
 #include "engine/core/memory.h"
 #include "engine/core/numbers.h"
 #include "engine/core/parallel.h"
 #include "engine/disparity/disparity_range.h"
+#include "engine/disparity/kernels/matching_kernel.h"
 #include "engine/disparity/view_samples.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cassert>
 #include <cmath>
+#include <utility>
 
 namespace episcope {
 namespace {
+
+constexpr int kInversePlanes = 6;
+
+// Symmetric 3×3: 00, 01, 02, 11, 12, 22.
+using Symmetric = std::array<double, 6>;
+
+Symmetric inverted(const Symmetric& m) {
+  const double a = m[3] * m[5] - m[4] * m[4];
+  const double b = m[2] * m[4] - m[1] * m[5];
+  const double c = m[1] * m[4] - m[2] * m[3];
+  const double scale = 1 / (m[0] * a + m[1] * b + m[2] * c);
+  return {a * scale,
+          b * scale,
+          c * scale,
+          (m[0] * m[5] - m[2] * m[2]) * scale,
+          (m[1] * m[2] - m[0] * m[4]) * scale,
+          (m[0] * m[3] - m[1] * m[1]) * scale};
+}
+
+int padded_width(int width) {
+  return width + kGuidedSlack;
+}
 
 // Rows in which the residual is measured.
 constexpr int kProbedCostRows = 24;
@@ -153,7 +180,224 @@ std::string cap_note(const StereoCosts& costs) {
   return fmt::format(finding_text("cap"), costs.matching.cap);
 }
 
+// Bytes of the samples on disk that so many rows of costs look at.
+double looked_at_bytes(const LightField& lf, const StereoCosts& costs, int rows) {
+  const GridShape grid = lf.grid();
+  const bool all = costs.matching.views == MatchedViews::All;
+  const double views = all ? grid.count() : grid.v + grid.u - 1;
+  const double steps = std::max(grid.v, grid.u);
+  const double reach = steps * std::max(std::abs(costs.range.min), std::abs(costs.range.max)) + 32;
+  const double view_row = static_cast<double>(lf.byte_size()) / grid.count() / lf.height();
+  return views * view_row * std::min<double>(rows + 2 * reach, lf.height());
+}
+
+// Rows of costs between which samples are dropped: multiples of a band.
+int rows_at_once(const LightField& lf, const StereoCosts& costs, int band_rows) {
+  const double most = static_cast<double>(memory_budget()) / 4;
+  int rows = lf.height();
+  while (rows > band_rows && looked_at_bytes(lf, costs, rows) > most) rows /= 2;
+  return std::max(rows / band_rows, 1) * band_rows;
+}
+
+std::vector<cuda::MatchShift> device_shifts(const std::vector<AxisShift>& shifts) {
+  std::vector<cuda::MatchShift> result;
+  result.reserve(shifts.size());
+  for (const AxisShift& shift : shifts) {
+    cuda::MatchShift& each = result.emplace_back();
+    std::ranges::copy(shift.weights, each.weights);
+    each.origin = shift.origin;
+    each.taps = shift.taps;
+    each.first = shift.first;
+    each.last = shift.last;
+    each.nearest = shift.nearest;
+    each.noise_left = shift.noise_left();
+  }
+  return result;
+}
+
+// In the order in which the CPU adds them.
+std::vector<cuda::MatchedView> matched_views(GridShape grid, ViewIndex reference,
+                                             const MatchingCost& cost) {
+  std::vector<cuda::MatchedView> views;
+  for (int i = 0; i < grid.count(); ++i) {
+    const ViewIndex view = grid.view_at(i);
+    const bool on_cross = view.v == reference.v || view.u == reference.u;
+    if (view == reference || (cost.views == MatchedViews::CrossHair && !on_cross)) continue;
+    views.push_back({view, cost.places ? i : view.v, cost.places ? i : view.u});
+  }
+  return views;
+}
+
 }  // namespace
+
+GuideImage::GuideImage(const LightField& lf, ViewIndex view, int radius, double regularization,
+                       const Progress& progress)
+    : radius_(radius),
+      height_(lf.height()),
+      width_(lf.width()),
+      channels_(lf.channels()),
+      planes_(channels_ == 3 ? 6 + kInversePlanes : 3),
+      pitch_(padded_width(lf.width())) {
+  assert(radius >= 1 && radius <= kMaxGuidedRadius);
+  memory_.resize(static_cast<std::size_t>(height_) * planes_ * pitch_ + kGuidedSlack);
+  read_samples(lf, view);
+  parallel_for(height_, progress, [&](int y) { find_statistics(y, regularization); });
+}
+
+void GuideImage::read_samples(const LightField& lf, ViewIndex view) {
+  SamplePlanes samples(lf);
+  for (int y = 0; y < height_; ++y) {
+    std::array<float*, 3> rows{};
+    for (int c = 0; c < channels_; ++c) rows[c] = row(c, y);
+    samples.read(view, y, 0, width_, rows.data());
+  }
+}
+
+void GuideImage::find_statistics(int y, double regularization) {
+  const int y0 = std::max(0, y - radius_);
+  const int y1 = std::min(height_, y + radius_ + 1);
+  // Sums down the window's columns: samples, then products.
+  constexpr int kMaxColumns = 9;
+  std::array<std::vector<double>, kMaxColumns> columns;
+  const int products = channels_ == 3 ? kInversePlanes : 1;
+  for (int i = 0; i < channels_ + products; ++i) columns[i].assign(width_, 0.0);
+  for (int j = y0; j < y1; ++j) {
+    int product = channels_;
+    for (int a = 0; a < channels_; ++a) {
+      const float* first = row(a, j);
+      for (int x = 0; x < width_; ++x) columns[a][x] += first[x];
+      for (int b = a; b < channels_; ++b, ++product) {
+        const float* second = row(b, j);
+        for (int x = 0; x < width_; ++x) columns[product][x] += first[x] * second[x];
+      }
+    }
+  }
+  for (int x = 0; x < width_; ++x) {
+    const int x0 = std::max(0, x - radius_);
+    const int x1 = std::min(width_, x + radius_ + 1);
+    std::array<double, kMaxColumns> mean{};
+    for (int i = 0; i < channels_ + products; ++i) {
+      for (int j = x0; j < x1; ++j) mean[i] += columns[i][j];
+      mean[i] /= (x1 - x0) * (y1 - y0);
+    }
+    for (int c = 0; c < channels_; ++c) row(channels_ + c, y)[x] = static_cast<float>(mean[c]);
+    if (channels_ == 1) {
+      const double variance = mean[1] - mean[0] * mean[0] + regularization;
+      row(2, y)[x] = static_cast<float>(1 / variance);
+      continue;
+    }
+    Symmetric covariance{};
+    int product = 0;
+    for (int a = 0; a < channels_; ++a) {
+      for (int b = a; b < channels_; ++b, ++product) {
+        covariance[product] = mean[channels_ + product] - mean[a] * mean[b];
+        if (a == b) covariance[product] += regularization;
+      }
+    }
+    const Symmetric inverse = inverted(covariance);
+    for (int i = 0; i < kInversePlanes; ++i) row(6 + i, y)[x] = static_cast<float>(inverse[i]);
+  }
+}
+
+struct GuidedFilter::State {
+  const GuideImage& guide;
+  const GuidedKernel& kernel = EPISCOPE_CHOOSE_KERNEL(best_isa(), kGuidedKernel);
+  int window = 0;  // Rows of it.
+  int pitch = 0;
+  std::vector<float> memory;
+  float* scratch = nullptr;
+  float* share = nullptr;
+  std::array<float*, kGuidedPlanes> model{};
+  // The last `window` rows of sums of products and of models.
+  std::array<std::array<float*, kGuidedPlanes>, 2 * kMaxGuidedRadius + 1> products{}, models{};
+
+  explicit State(const GuideImage& image);
+  [[nodiscard]] GuideRow guide_row(int y) const;
+  void filter_layer(int y, VolumeView<float> values, int layer);
+  using Ring = std::array<std::array<float*, kGuidedPlanes>, 2 * kMaxGuidedRadius + 1>;
+  [[nodiscard]] GuidedSums window_about(const Ring& ring, int y, int height) const;
+};
+
+GuidedFilter::State::State(const GuideImage& image)
+    : guide(image),
+      window(2 * image.radius() + 1),
+      pitch(padded_width(image.width()) + 2 * image.radius() + kGuidedSlack) {
+  const int rows = 2 + kGuidedPlanes + 2 * window * kGuidedPlanes;
+  memory.assign(static_cast<std::size_t>(rows) * pitch, 0.0F);
+  float* next = memory.data();
+  const auto take = [&] { return std::exchange(next, next + pitch); };
+  scratch = take();
+  share = take();
+  for (float*& row : model) row = take();
+  for (Ring* ring : {&products, &models}) {
+    for (int i = 0; i < window; ++i) {
+      for (float*& row : (*ring)[i]) row = take();
+    }
+  }
+  for (int x = 0; x < guide.width(); ++x) {
+    const int x0 = std::max(0, x - guide.radius());
+    const int x1 = std::min(guide.width(), x + guide.radius() + 1);
+    share[x] = 1.0F / static_cast<float>(x1 - x0);
+  }
+}
+
+GuideRow GuidedFilter::State::guide_row(int y) const {
+  GuideRow row;
+  row.channels = guide.channels();
+  row.width = guide.width();
+  row.radius = guide.radius();
+  row.share = share;
+  for (int c = 0; c < row.channels; ++c) {
+    row.guide[c] = guide.row(c, y);
+    row.mean[c] = guide.row(row.channels + c, y);
+  }
+  const int inverses = row.channels == 3 ? kInversePlanes : 1;
+  for (int i = 0; i < inverses; ++i) row.inverse[i] = guide.row(2 * row.channels + i, y);
+  return row;
+}
+
+GuidedSums GuidedFilter::State::window_about(const Ring& ring, int y, int height) const {
+  GuidedSums sums;
+  const int last = std::min(height - 1, y + guide.radius());
+  for (int j = std::max(0, y - guide.radius()); j <= last; ++j) {
+    std::copy_n(ring[j % window].begin(), kGuidedPlanes, sums.planes[sums.rows]);
+    ++sums.rows;
+  }
+  return sums;
+}
+
+// A row of sums, the model a radius above it and the result another radius above follow each other
+// down the band, so that nothing but rows is held.
+void GuidedFilter::State::filter_layer(int y, VolumeView<float> values, int layer) {
+  const int radius = guide.radius();
+  for (int row = 0; row < values.height + 2 * radius; ++row) {
+    if (row < values.height) {
+      // A copy, because the kernel reads beyond the row.
+      std::copy_n(values.row(row, layer), values.width, model[0]);
+      kernel.sum_products(guide_row(y + row), model[0], scratch, products[row % window].data());
+    }
+    const int middle = row - radius;
+    if (middle >= 0 && middle < values.height) {
+      kernel.solve(guide_row(y + middle), window_about(products, middle, values.height), scratch,
+                   model.data(), models[middle % window].data());
+    }
+    const int done = row - 2 * radius;
+    if (done >= 0) {
+      kernel.apply(guide_row(y + done), window_about(models, done, values.height),
+                   values.row(done, layer));
+    }
+  }
+}
+
+GuidedFilter::GuidedFilter(const GuideImage& guide) : state_(std::make_unique<State>(guide)) {}
+GuidedFilter::~GuidedFilter() = default;
+
+void GuidedFilter::apply(int y, VolumeView<float> values, const Progress& progress) {
+  for (int layer = 0; layer < values.layers; ++layer) {
+    progress.check();
+    state_->filter_layer(y, values, layer);
+  }
+}
 
 Names<Compared> names_of(Compared) {
   return {{Compared::Absolute, "absolute"}, {Compared::Relative, "relative"}};
@@ -279,53 +523,35 @@ int stereo_band_rows(int height) {
   return std::clamp(height / 12, 16, 64);
 }
 
-double looked_at_bytes(const LightField& lf, const StereoCosts& costs, int rows) {
-  if (!lf.is_on_disk()) return 0;
-  const GridShape grid = lf.grid();
-  const bool all = costs.matching.views == MatchedViews::All;
-  const double views = all ? grid.count() : grid.v + grid.u - 1;
-  const double steps = std::max(grid.v, grid.u);
-  const double reach = steps * std::max(std::abs(costs.range.min), std::abs(costs.range.max)) + 32;
-  const double view_row = static_cast<double>(lf.byte_size()) / grid.count() / lf.height();
-  return views * view_row * std::min<double>(rows + 2 * reach, lf.height());
+void compute_stereo_costs(const LightField& lf, const StereoCosts& costs,
+                          const TakeStereoCosts& take, const Progress& progress) {
+  const int height = lf.height(), band = stereo_band_rows(height);
+  const int rows = lf.is_on_disk() ? rows_at_once(lf, costs, band) : height;
+  for (int first = 0; first < height; first += rows) {
+    const int end = std::min(first + rows, height);
+    const auto share = [&](int y) { return static_cast<double>(y) / height; };
+    if (costs.matching.views == MatchedViews::All) lf.fetch_samples(first, end);
+    parallel_for_workers((end - first + band - 1) / band, progress.part(share(first), share(end)),
+                         [&] {
+                           return [&, source = StereoCostRows(lf, costs)](int i) mutable {
+                             const int y = first + i * band;
+                             take(y, source.compute(y, std::min(band, end - y), progress));
+                           };
+                         });
+    if (rows < height) lf.forget_samples();
+  }
 }
-
-namespace {
-
-// Rows of costs between which samples are dropped: multiples of a band.
-int rows_at_once(const LightField& lf, const StereoCosts& costs, int band_rows) {
-  const double most = static_cast<double>(memory_budget()) / 4;
-  int rows = lf.height();
-  while (rows > band_rows && looked_at_bytes(lf, costs, rows) > most) rows /= 2;
-  return std::max(rows / band_rows, 1) * band_rows;
-}
-
-void fill_volume(const LightField& lf, const StereoCosts& costs, int first_row, int end_row,
-                 VolumeView<float> volume, const Progress& progress) {
-  const int rows = stereo_band_rows(lf.height());
-  parallel_for_workers((end_row - first_row + rows - 1) / rows, progress, [&] {
-    return [&, source = StereoCostRows(lf, costs)](int i) mutable {
-      const int y = first_row + i * rows;
-      const auto band = source.compute(y, std::min(rows, end_row - y), progress);
-      std::copy_n(band.data, band.size(), volume.row(y, 0));
-    };
-  });
-}
-
-}  // namespace
 
 Volume<float> stereo_volume(const LightField& lf, const StereoCosts& costs,
                             const Progress& progress) {
-  const int height = lf.height();
-  Volume<float> volume(height, static_cast<int>(costs.labels.size()), lf.width());
-  const int rows = lf.is_on_disk() ? rows_at_once(lf, costs, stereo_band_rows(height)) : height;
-  for (int y = 0; y < height; y += rows) {
-    const int end = std::min(y + rows, height);
-    if (costs.matching.views == MatchedViews::All) lf.fetch_samples(y, end);
-    fill_volume(lf, costs, y, end, volume.view(),
-                progress.part(static_cast<double>(y) / height, static_cast<double>(end) / height));
-    if (rows < height) lf.forget_samples();
-  }
+  Volume<float> volume(lf.height(), static_cast<int>(costs.labels.size()), lf.width());
+  const VolumeView<float> rows = volume.view();
+  compute_stereo_costs(
+      lf, costs,
+      [&](int y, VolumeView<const float> band) {
+        std::copy_n(band.data, band.size(), rows.row(y, 0));
+      },
+      progress);
   return volume;
 }
 
@@ -334,39 +560,6 @@ std::vector<std::string> cost_notes(const StereoCosts& costs) {
   notes.insert(notes.end(), costs.notes.begin(), costs.notes.end());
   return notes;
 }
-
-namespace {
-
-std::vector<cuda::MatchShift> device_shifts(const std::vector<AxisShift>& shifts) {
-  std::vector<cuda::MatchShift> result;
-  result.reserve(shifts.size());
-  for (const AxisShift& shift : shifts) {
-    cuda::MatchShift& each = result.emplace_back();
-    std::ranges::copy(shift.weights, each.weights);
-    each.origin = shift.origin;
-    each.taps = shift.taps;
-    each.first = shift.first;
-    each.last = shift.last;
-    each.nearest = shift.nearest;
-    each.noise_left = shift.noise_left();
-  }
-  return result;
-}
-
-// In the order in which the CPU adds them.
-std::vector<cuda::MatchedView> matched_views(GridShape grid, ViewIndex reference,
-                                             const MatchingCost& cost) {
-  std::vector<cuda::MatchedView> views;
-  for (int i = 0; i < grid.count(); ++i) {
-    const ViewIndex view = grid.view_at(i);
-    const bool on_cross = view.v == reference.v || view.u == reference.u;
-    if (view == reference || (cost.views == MatchedViews::CrossHair && !on_cross)) continue;
-    views.push_back({view, cost.places ? i : view.v, cost.places ? i : view.u});
-  }
-  return views;
-}
-
-}  // namespace
 
 cuda::StereoMatching device_matching(const LightField& lf, ViewIndex reference,
                                      const MatchingCost& cost, const std::vector<float>& labels) {

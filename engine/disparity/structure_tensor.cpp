@@ -119,40 +119,6 @@ int filter_reach(const std::vector<RowTaps>& filter) {
   return reach;
 }
 
-}  // namespace
-
-// Cut at 2σ, where the Gaussian has fallen to 13 %.
-int gaussian_radius(double sigma) {
-  return static_cast<int>(std::ceil(2 * sigma));
-}
-
-TensorFilterSet make_tensor_filters(int rows, int channels, const TensorScales& scales) {
-  const int inner = gaussian_radius(scales.inner);
-  const int views = gaussian_radius(scales.views);
-  const Matrix before =
-      smoothing_matrix(rows, inner, [&](int i) { return gaussian(scales.inner, i); });
-  const Matrix scharr = smoothing_matrix(rows, 1, [](int i) { return i == 0 ? 10.0 : 3.0; });
-  const Matrix after =
-      smoothing_matrix(rows, views, [&](int i) { return gaussian(scales.views, i); });
-  TensorFilterSet set;
-  set.row_smooth = banded(product(scharr, before), inner + 1);
-  set.row_derivative = banded(product(derivative_matrix(rows), before), inner + 1);
-  set.row_integrate = banded(after, views);
-  set.view_reach = filter_reach(set.row_smooth) + filter_reach(set.row_integrate);
-  set.filters.smooth = gaussian_taps(scales.inner);
-  set.filters.integrate = gaussian_taps(scales.outer);
-  set.filters.integrate_half = half_sample(set.filters.integrate);
-  set.filters.row_smooth = set.row_smooth.data();
-  set.filters.row_derivative = set.row_derivative.data();
-  set.filters.row_integrate = set.row_integrate.data();
-  set.filters.contrast_energy = contrast_energy(scales.contrast, channels);
-  set.filters.noise_energy = sample_energy(scales.noise, channels);
-  set.across = gaussian_taps(scales.across);
-  return set;
-}
-
-namespace {
-
 // Lanes that a kernel may read or write beyond what it is asked for.
 constexpr int kTensorSlack = 128;
 // Of the widest instruction set: rows begin at whole vectors, where strides allow it.
@@ -190,7 +156,63 @@ int reach_along(const TensorFilterSet& set, const TensorSearch& search) {
   return reach + set.filters.smooth.radius + 4;
 }
 
+std::vector<cuda::ViewFilter> view_filters(const std::vector<RowTaps>& rows) {
+  std::vector<cuda::ViewFilter> filters(rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    filters[i].first = rows[i].first;
+    filters[i].count = rows[i].count;
+    std::copy_n(rows[i].values, rows[i].count, filters[i].taps);
+  }
+  return filters;
+}
+
+cuda::ViewFilters view_filters(const TensorFilterSet& set) {
+  return {view_filters(set.row_smooth), view_filters(set.row_derivative),
+          view_filters(set.row_integrate), set.view_reach};
+}
+
+std::vector<float> lane_filter(const Taps& taps, int more = 0) {
+  return {taps.values, taps.values + 2 * taps.radius + 1 + more};
+}
+
+void set_shears(const std::vector<int>& shears, cuda::TensorSettings& settings) {
+  settings.first_shear = shears.front();
+  settings.shear_count = static_cast<int>(shears.size());
+  settings.shear_step = shears.size() > 1 ? shears[1] - shears[0] : 0;
+  assert(shears.back() == shears.front() + (settings.shear_count - 1) * settings.shear_step);
+}
+
 }  // namespace
+
+// Cut at 2σ, where the Gaussian has fallen to 13 %.
+int gaussian_radius(double sigma) {
+  return static_cast<int>(std::ceil(2 * sigma));
+}
+
+TensorFilterSet make_tensor_filters(int rows, int channels, const TensorScales& scales) {
+  const int inner = gaussian_radius(scales.inner);
+  const int views = gaussian_radius(scales.views);
+  const Matrix before =
+      smoothing_matrix(rows, inner, [&](int i) { return gaussian(scales.inner, i); });
+  const Matrix scharr = smoothing_matrix(rows, 1, [](int i) { return i == 0 ? 10.0 : 3.0; });
+  const Matrix after =
+      smoothing_matrix(rows, views, [&](int i) { return gaussian(scales.views, i); });
+  TensorFilterSet set;
+  set.row_smooth = banded(product(scharr, before), inner + 1);
+  set.row_derivative = banded(product(derivative_matrix(rows), before), inner + 1);
+  set.row_integrate = banded(after, views);
+  set.view_reach = filter_reach(set.row_smooth) + filter_reach(set.row_integrate);
+  set.filters.smooth = gaussian_taps(scales.inner);
+  set.filters.integrate = gaussian_taps(scales.outer);
+  set.filters.integrate_half = half_sample(set.filters.integrate);
+  set.filters.row_smooth = set.row_smooth.data();
+  set.filters.row_derivative = set.row_derivative.data();
+  set.filters.row_integrate = set.row_integrate.data();
+  set.filters.contrast_energy = contrast_energy(scales.contrast, channels);
+  set.filters.noise_energy = sample_energy(scales.noise, channels);
+  set.across = gaussian_taps(scales.across);
+  return set;
+}
 
 TensorSearch cover_range(Interval range, int step_half_px) {
   const double step = 0.5 * step_half_px;
@@ -244,6 +266,7 @@ struct StructureTensor::State {
   void allocate();
   void use_slot(float* slot);
   void run_shears(const TensorTask& task, int count);
+  void gather(ViewIndex view, PixelIndex begin, int end, int row, long lane, int count, int before);
   void gather_horizontal(const TensorTask& task, int y);
   void gather_vertical(const TensorTask& task);
   void prefetch_pixels(ViewIndex view, int y, int x) const;
@@ -321,21 +344,28 @@ void StructureTensor::State::prefetch_pixels(ViewIndex view, int y, int x) const
   for (int i = 0; i < columns * block.channels; i += kCacheLine) __builtin_prefetch(first + i);
 }
 
+// Columns [begin.x, end) of a row of the view, from `before` on in the `count` lanes that begin at
+// `lane` of the block's row, which continue the first and the last of them.
+void StructureTensor::State::gather(ViewIndex view, PixelIndex begin, int end, int row, long lane,
+                                    int count, int before) {
+  std::array<float*, 3> inside{};
+  for (int c = 0; c < block.channels; ++c) {
+    inside[c] = block.samples + (static_cast<std::size_t>(c) * block.rows + row) * block.pitch +
+                lane + before;
+  }
+  planes.read(view, begin.y, begin.x, end, inside.data());
+  const int width = end - begin.x;
+  for (int c = 0; c < block.channels; ++c) {
+    std::fill(inside[c] - before, inside[c], inside[c][0]);
+    std::fill(inside[c] + width, inside[c] - before + count, inside[c][width - 1]);
+  }
+}
+
 void StructureTensor::State::gather_horizontal(const TensorTask& task, int y) {
   const int x0 = std::max(0, task.begin.x - block.margin);
   const int x1 = std::min(light_field.width(), task.begin.x + task.width + block.margin);
   for (int u = 0; u < block.rows; ++u) {
-    std::array<float*, 3> rows{};
-    std::array<float*, 3> inside{};
-    for (int c = 0; c < block.channels; ++c) {
-      rows[c] = block.samples + (static_cast<std::size_t>(c) * block.rows + u) * block.pitch;
-      inside[c] = rows[c] + block.margin + x0 - task.begin.x;
-    }
-    planes.read({task.camera_line, u}, y, x0, x1, inside.data());
-    for (int c = 0; c < block.channels; ++c) {
-      std::fill(rows[c], inside[c], inside[c][0]);
-      std::fill(inside[c] + (x1 - x0), rows[c] + block.pitch, inside[c][x1 - x0 - 1]);
-    }
+    gather({task.camera_line, u}, {y, x0}, x1, u, 0, block.pitch, block.margin + x0 - task.begin.x);
   }
 }
 
@@ -347,19 +377,8 @@ void StructureTensor::State::gather_vertical(const TensorTask& task) {
   for (int v = 0; v < block.rows; ++v) {
     for (int i = -margin; i < task.height + margin; ++i) {
       const int y = std::clamp(task.begin.y + i, 0, light_field.height() - 1);
-      std::array<float*, 3> lanes{};
-      std::array<float*, 3> inside{};
-      for (int c = 0; c < block.channels; ++c) {
-        lanes[c] = block.samples + (static_cast<std::size_t>(c) * block.rows + v) * block.pitch +
-                   static_cast<std::ptrdiff_t>(margin + i) * columns;
-        inside[c] = lanes[c] + (x0 - left);
-      }
       prefetch_pixels({v, task.camera_line}, y, x0);
-      planes.read({v, task.camera_line}, y, x0, x1, inside.data());
-      for (int c = 0; c < block.channels; ++c) {
-        std::fill(lanes[c], inside[c], inside[c][0]);
-        std::fill(inside[c] + (x1 - x0), lanes[c] + columns, inside[c][x1 - x0 - 1]);
-      }
+      gather({v, task.camera_line}, {y, x0}, x1, v, (margin + i) * columns, columns, x0 - left);
     }
   }
 }
@@ -481,36 +500,6 @@ void merge_orientations(const float* disparity, const float* coherence, int coun
   EPISCOPE_CHOOSE_KERNEL(best_isa(), kOrientationKernel)
       .merge(disparity, coherence, count, power, to_disparity, to_coherence);
 }
-
-namespace {
-
-std::vector<cuda::ViewFilter> view_filters(const std::vector<RowTaps>& rows) {
-  std::vector<cuda::ViewFilter> filters(rows.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    filters[i].first = rows[i].first;
-    filters[i].count = rows[i].count;
-    std::copy_n(rows[i].values, rows[i].count, filters[i].taps);
-  }
-  return filters;
-}
-
-cuda::ViewFilters view_filters(const TensorFilterSet& set) {
-  return {view_filters(set.row_smooth), view_filters(set.row_derivative),
-          view_filters(set.row_integrate), set.view_reach};
-}
-
-std::vector<float> lane_filter(const Taps& taps, int more = 0) {
-  return {taps.values, taps.values + 2 * taps.radius + 1 + more};
-}
-
-void set_shears(const std::vector<int>& shears, cuda::TensorSettings& settings) {
-  settings.first_shear = shears.front();
-  settings.shear_count = static_cast<int>(shears.size());
-  settings.shear_step = shears.size() > 1 ? shears[1] - shears[0] : 0;
-  assert(shears.back() == shears.front() + (settings.shear_count - 1) * settings.shear_step);
-}
-
-}  // namespace
 
 cuda::TensorSettings device_tensor_settings(const LightField& lf, const TensorScales& scales,
                                             const TensorSearch& search) {

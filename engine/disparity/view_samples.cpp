@@ -99,39 +99,6 @@ int beyond(int place, int first, int count) {
   return std::max({first - place, place - (first + count - 1), 0});
 }
 
-}  // namespace
-
-PackedViews pack_views(const LightField& lf, const Progress& progress) {
-  return pack_rows(lf, 0, lf.height(), progress);
-}
-
-PackedViews pack_rows(const LightField& lf, int first_row, int end_row, const Progress& progress) {
-  PackedViews packed{ViewStack<std::uint32_t>(lf.grid(), end_row - first_row, lf.width()),
-                     !lf.valid().empty()};
-  parallel_for(lf.grid().count(), progress,
-               [&](int i) { pack_view(lf, lf.grid().view_at(i), first_row, packed); });
-  return packed;
-}
-
-PackedViews pack_around(const LightField& lf, const ViewRectangle& views, int reach,
-                        const Progress& progress) {
-  const ViewIndex from{std::max(views.first.v - reach, 0), std::max(views.first.u - reach, 0)};
-  const ViewIndex to{std::min(views.first.v + views.grid.v + reach, lf.grid().v),
-                     std::min(views.first.u + views.grid.u + reach, lf.grid().u)};
-  PackedViews packed{ViewStack<std::uint32_t>({to.v - from.v, to.u - from.u}, lf.height(),
-                                              lf.width(), 1, from, allocate_large_zeros),
-                     !lf.valid().empty()};
-  parallel_for(packed.pixels.grid().count(), progress, [&](int i) {
-    const ViewIndex view = packed.pixels.view_at(i);
-    const bool is_beside = beyond(view.v, views.first.v, views.grid.v) == 0 ||
-                           beyond(view.u, views.first.u, views.grid.u) == 0;
-    if (is_beside) pack_view(lf, view, 0, packed);
-  });
-  return packed;
-}
-
-namespace {
-
 constexpr float kDark = 0.02F;
 
 // Sums over windows of one view, `values` and how many pixels count, from running sums.
@@ -263,6 +230,35 @@ Image<float> variance_of(const ViewChannels& planes, const Progress& progress) {
 }
 
 }  // namespace
+
+PackedViews pack_views(const LightField& lf, const Progress& progress) {
+  return pack_rows(lf, 0, lf.height(), progress);
+}
+
+PackedViews pack_rows(const LightField& lf, int first_row, int end_row, const Progress& progress) {
+  PackedViews packed{ViewStack<std::uint32_t>(lf.grid(), end_row - first_row, lf.width()),
+                     !lf.valid().empty()};
+  parallel_for(lf.grid().count(), progress,
+               [&](int i) { pack_view(lf, lf.grid().view_at(i), first_row, packed); });
+  return packed;
+}
+
+PackedViews pack_around(const LightField& lf, const ViewRectangle& views, int reach,
+                        const Progress& progress) {
+  const ViewIndex from{std::max(views.first.v - reach, 0), std::max(views.first.u - reach, 0)};
+  const ViewIndex to{std::min(views.first.v + views.grid.v + reach, lf.grid().v),
+                     std::min(views.first.u + views.grid.u + reach, lf.grid().u)};
+  PackedViews packed{ViewStack<std::uint32_t>({to.v - from.v, to.u - from.u}, lf.height(),
+                                              lf.width(), 1, from, allocate_large_zeros),
+                     !lf.valid().empty()};
+  parallel_for(packed.pixels.grid().count(), progress, [&](int i) {
+    const ViewIndex view = packed.pixels.view_at(i);
+    const bool is_beside = beyond(view.v, views.first.v, views.grid.v) == 0 ||
+                           beyond(view.u, views.first.u, views.grid.u) == 0;
+    if (is_beside) pack_view(lf, view, 0, packed);
+  });
+  return packed;
+}
 
 LightField relative_samples(const LightField& lf, int radius, const Progress& progress) {
   ViewStack<std::uint16_t> samples(lf.grid(), lf.height(), lf.width(), lf.channels());

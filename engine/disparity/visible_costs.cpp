@@ -2,10 +2,10 @@
 #include "engine/disparity/visible_costs.h"
 
 #include "engine/core/parallel.h"
-#include "engine/cuda/volume_costs.h"
+#include "engine/cuda/stereo_matcher.h"
 #include "engine/disparity/estimator.h"
 #include "engine/disparity/view_samples.h"
-#include "engine/solvers/pair_limits.h"
+#include "engine/solvers/layered_sweep.h"
 
 #include <algorithm>
 #include <cmath>
@@ -45,6 +45,72 @@ float mean_difference(const Products& g, GridShape grid, ViewIndex view) {
   return sum / static_cast<float>(grid.count() - 1);
 }
 
+constexpr int kTrustRadius = 4;
+
+// Between a view that counts and one that does not, px of disparity.
+constexpr float kSoftness = 0.05F;
+
+// Of the view, which is compensated.
+Image<float> noise_of(const StereoCosts& costs, const Progress& progress) {
+  if (costs.matcher) return costs.matcher->noise(progress);
+  return costs.matching.noise ? *costs.matching.noise : Image<float>();
+}
+
+LabelCosts costs_on_device(const LightField& lf, const StereoCosts& costs,
+                           const Progress& progress) {
+  const LightField& compared = costs.relative ? *costs.relative : lf;
+  return {costs,
+          costs.matcher->volume(device_matching(compared, costs.view, costs.matching, costs.labels),
+                                progress)};
+}
+
+// How far around the best label costs are looked at.
+constexpr double kUnitReach = 0.5;  // px
+
+double mean_around(VolumeView<const float> costs, int y, int x, int best, int reach) {
+  const int first = std::max(0, best - reach);
+  const int last = std::min(costs.layers - 1, best + reach);
+  double sum = 0;
+  for (int l = first; l <= last; ++l) sum += costs.at(y, l, x);
+  return sum / (last - first + 1);
+}
+
+// Labels on either side of the best one that count.
+int unit_labels(double step) {
+  return std::max(1, static_cast<int>(std::lround(kUnitReach / step)));
+}
+
+double per_valid_pixel(double sum, const LightField& lf, ViewIndex view) {
+  return sum / static_cast<double>(std::max<std::size_t>(1, count_valid(lf, view)));
+}
+
+// No pixel gets weight 0 when it is placed between labels.
+constexpr float kPlacedMinWeight = 0.01F;
+
+float step_of(const StereoCosts& stereo) {
+  return stereo.labels[1] - stereo.labels[0];
+}
+
+// `offset` in labels.
+Placement placed(const StereoCosts& stereo, int label, float offset, float trust) {
+  return {stereo.labels[label] + offset * step_of(stereo),
+          std::max(trust * trust, kPlacedMinWeight)};
+}
+
+bool is_between(const StereoCosts& stereo, int label) {
+  return label > 0 && label + 1 < static_cast<int>(stereo.labels.size());
+}
+
+int nearest_label(const StereoCosts& stereo, float disparity) {
+  const float place = (disparity - stereo.labels.front()) / step_of(stereo);
+  return std::clamp(static_cast<int>(place + 0.5F), 0, static_cast<int>(stereo.labels.size()) - 1);
+}
+
+// 1 − cost / mean cost, in [0, 1]; 0 without costs.
+float cost_trust(float cost, float mean) {
+  return mean > 0 ? std::clamp(1 - cost / mean, 0.0F, 1.0F) : 0;
+}
+
 }  // namespace
 
 Image<float> local_caps(const LightField& lf, ViewIndex view, const Image<float>& variance,
@@ -63,12 +129,6 @@ Image<float> local_caps(const LightField& lf, ViewIndex view, const Image<float>
   });
   return caps;
 }
-
-namespace {
-
-constexpr int kTrustRadius = 4;
-
-}  // namespace
 
 Image<float> regional_trust(ImageView<const float> confidence) {
   const int height = confidence.height, width = confidence.width;
@@ -115,27 +175,6 @@ ViewStack<float> LabelCosts::confidence(ImageView<const float> disparity,
   if (on_device_) return volume_confidence(disparity, stereo_, *on_device_, progress);
   return volume_confidence(disparity, stereo_, on_cpu(), means_, progress);
 }
-
-namespace {
-
-// Between a view that counts and one that does not, px of disparity.
-constexpr float kSoftness = 0.05F;
-
-// Of the view, which is compensated.
-Image<float> noise_of(const StereoCosts& costs, const Progress& progress) {
-  if (costs.matcher) return costs.matcher->noise(progress);
-  return costs.matching.noise ? *costs.matching.noise : Image<float>();
-}
-
-LabelCosts costs_on_device(const LightField& lf, const StereoCosts& costs,
-                           const Progress& progress) {
-  const LightField& compared = costs.relative ? *costs.relative : lf;
-  return {costs,
-          costs.matcher->volume(device_matching(compared, costs.view, costs.matching, costs.labels),
-                                progress)};
-}
-
-}  // namespace
 
 Schema<VisibilityParameters> visibility_schema() {
   using P = VisibilityParameters;
@@ -222,30 +261,6 @@ LabelCosts visible_costs(const LightField& lf, const StereoCosts& costs, const P
   return {costs, std::move(volume), progress.part(0.95, 1)};
 }
 
-namespace {
-
-// How far around the best label costs are looked at.
-constexpr double kUnitReach = 0.5;  // px
-
-double mean_around(VolumeView<const float> costs, int y, int x, int best, int reach) {
-  const int first = std::max(0, best - reach);
-  const int last = std::min(costs.layers - 1, best + reach);
-  double sum = 0;
-  for (int l = first; l <= last; ++l) sum += costs.at(y, l, x);
-  return sum / (last - first + 1);
-}
-
-// Labels on either side of the best one that count.
-int unit_labels(double step) {
-  return std::max(1, static_cast<int>(std::lround(kUnitReach / step)));
-}
-
-double per_valid_pixel(double sum, const LightField& lf, ViewIndex view) {
-  return sum / static_cast<double>(std::max<std::size_t>(1, count_valid(lf, view)));
-}
-
-}  // namespace
-
 double cost_unit(const LightField& lf, ViewIndex view, VolumeView<const float> costs, double step,
                  const Progress& progress) {
   const int reach = unit_labels(step);
@@ -267,37 +282,6 @@ double cost_unit(const LightField& lf, ViewIndex view, const cuda::DeviceVolume&
   return per_valid_pixel(cuda::sum_around_best(costs, valid, unit_labels(step), progress), lf,
                          view);
 }
-
-namespace {
-
-// No pixel gets weight 0 when it is placed between labels.
-constexpr float kPlacedMinWeight = 0.01F;
-
-float step_of(const StereoCosts& stereo) {
-  return stereo.labels[1] - stereo.labels[0];
-}
-
-// `offset` in labels.
-Placement placed(const StereoCosts& stereo, int label, float offset, float trust) {
-  return {stereo.labels[label] + offset * step_of(stereo),
-          std::max(trust * trust, kPlacedMinWeight)};
-}
-
-bool is_between(const StereoCosts& stereo, int label) {
-  return label > 0 && label + 1 < static_cast<int>(stereo.labels.size());
-}
-
-int nearest_label(const StereoCosts& stereo, float disparity) {
-  const float place = (disparity - stereo.labels.front()) / step_of(stereo);
-  return std::clamp(static_cast<int>(place + 0.5F), 0, static_cast<int>(stereo.labels.size()) - 1);
-}
-
-// 1 − cost / mean cost, in [0, 1]; 0 without costs.
-float cost_trust(float cost, float mean) {
-  return mean > 0 ? std::clamp(1 - cost / mean, 0.0F, 1.0F) : 0;
-}
-
-}  // namespace
 
 Image<float> mean_costs(VolumeView<const float> costs, const Progress& progress) {
   Image<float> means(costs.height, costs.width);

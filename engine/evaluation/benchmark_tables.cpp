@@ -40,38 +40,6 @@ std::optional<double> average(const Scores& scores, const std::vector<std::size_
   return sum / static_cast<double>(scenes.size());
 }
 
-}  // namespace
-
-Ranking rank_entries(const ScoreMatrix& matrix, int digits) {
-  Ranking ranking;
-  divide_scenes(matrix, ranking);
-  for (const Scores& scores : matrix.scores) {
-    ranking.averages.push_back(average(scores, ranking.scenes));
-  }
-  const double unit = std::pow(10.0, digits);
-  const auto shown = [&](std::size_t entry) { return std::round(*ranking.averages[entry] * unit); };
-  const auto is_ranked = [&](std::size_t entry) { return ranking.averages[entry].has_value(); };
-
-  ranking.order.resize(matrix.entries.size());
-  std::iota(ranking.order.begin(), ranking.order.end(), std::size_t{0});
-  const auto unranked =
-      std::stable_partition(ranking.order.begin(), ranking.order.end(), is_ranked);
-  const bool is_falling = matrix.better == BetterScore::Larger;
-  std::stable_sort(ranking.order.begin(), unranked, [&](std::size_t a, std::size_t b) {
-    return is_falling ? shown(a) > shown(b) : shown(a) < shown(b);
-  });
-
-  ranking.ranks.assign(matrix.entries.size(), 0);
-  for (auto place = ranking.order.begin(); place != unranked; ++place) {
-    const bool is_tied = place != ranking.order.begin() && shown(*place) == shown(*(place - 1));
-    ranking.ranks[*place] =
-        is_tied ? ranking.ranks[*(place - 1)] : static_cast<int>(place - ranking.order.begin()) + 1;
-  }
-  return ranking;
-}
-
-namespace {
-
 constexpr const char* kGap = "–";
 
 Metrics BenchmarkResult::*metrics_of(Protocol protocol) {
@@ -198,7 +166,115 @@ void add_columns(TextTable& table, const std::vector<BenchmarkResult>& results,
   }
 }
 
+struct LabelMetric {
+  const char* key;
+  const char* title;
+  const char* column;
+};
+
+constexpr LabelMetric kMetrics[] = {
+    {"accuracy_all_views", "Accuracy: % of the pixels of all views", "accuracy"},
+    {"miou", "Mean intersection over union of the labels, %", "mIoU"},
+    {"macc", "Mean accuracy of the labels, %", "mAcc"},
+    {"boundary_accuracy", "Boundary accuracy: % of the pixels within 3 px of a true boundary",
+     "boundaries"},
+    {"thin_iou", "Mean intersection over union of the labels up to 4 px wide, %", "thin IoU"},
+    {"consistency", "Consistency: % of the rays whose label is that of the same point elsewhere",
+     "consistency"},
+};
+
+std::vector<BenchmarkResult> with_labels(const std::vector<BenchmarkResult>& results) {
+  std::vector<BenchmarkResult> labeled;
+  std::ranges::copy_if(results, std::back_inserter(labeled),
+                       [](const BenchmarkResult& result) { return !result.labels.empty(); });
+  return labeled;
+}
+
+ScoreMatrix percentages(const std::vector<BenchmarkResult>& results, const std::string& key) {
+  ScoreMatrix matrix = score_matrix(results, &BenchmarkResult::labels, key);
+  matrix.better = BetterScore::Larger;
+  for (auto& scores : matrix.scores) {
+    for (auto& score : scores) {
+      if (score) *score *= 100;
+    }
+  }
+  return matrix;
+}
+
+TitledTable overview(const std::vector<BenchmarkResult>& results) {
+  TitledTable titled{"Labels ranked by average accuracy, % of all views",
+                     "Averages are over the scenes that every entry has; seconds are the mean over "
+                     "the scenes, without estimating disparity.",
+                     {{"algorithm", "rank"}, {}},
+                     {}};
+  std::vector<Ranking> rankings;
+  ScoreMatrix first;
+  for (const LabelMetric& metric : kMetrics) {
+    const ScoreMatrix matrix = percentages(results, metric.key);
+    rankings.push_back(rank_entries(matrix, kScoreDigits));
+    titled.table.header.emplace_back(metric.column);
+    if (first.entries.empty()) first = matrix;
+  }
+  titled.table.header.emplace_back("seconds");
+  for (const std::size_t entry : rankings[0].order) {
+    const int rank = rankings[0].ranks[entry];
+    std::vector<std::string> cells{first.entries[entry], rank > 0 ? std::to_string(rank) : "–"};
+    for (const Ranking& ranking : rankings) cells.push_back(score_text(ranking.averages[entry]));
+    cells.push_back(fixed_text(speed_of(results, first.entries[entry]).mean(), 2));
+    titled.table.rows.push_back(std::move(cells));
+  }
+  return titled;
+}
+
+/// The labels of a scene take the place of scenes.
+TitledTable table_of_scene(const std::vector<BenchmarkResult>& results, const std::string& scene) {
+  constexpr const char* prefix = "iou_label_";
+  std::vector<BenchmarkResult> of_labels;
+  for (const BenchmarkResult& result : results) {
+    if (result.scene != scene) continue;
+    for (const auto& [key, value] : result.labels) {
+      if (!key.starts_with(prefix)) continue;
+      BenchmarkResult& of_label = of_labels.emplace_back();
+      of_label.entry = result.entry;
+      of_label.scene = "label " + key.substr(std::string(prefix).size());
+      of_label.labels = {{prefix, value}};
+    }
+  }
+  TitledTable titled = accuracy_table(scene + ": intersection over union of each label, %",
+                                      percentages(of_labels, prefix));
+  titled.table.header.front() = "label";
+  return titled;
+}
+
 }  // namespace
+
+Ranking rank_entries(const ScoreMatrix& matrix, int digits) {
+  Ranking ranking;
+  divide_scenes(matrix, ranking);
+  for (const Scores& scores : matrix.scores) {
+    ranking.averages.push_back(average(scores, ranking.scenes));
+  }
+  const double unit = std::pow(10.0, digits);
+  const auto shown = [&](std::size_t entry) { return std::round(*ranking.averages[entry] * unit); };
+  const auto is_ranked = [&](std::size_t entry) { return ranking.averages[entry].has_value(); };
+
+  ranking.order.resize(matrix.entries.size());
+  std::iota(ranking.order.begin(), ranking.order.end(), std::size_t{0});
+  const auto unranked =
+      std::stable_partition(ranking.order.begin(), ranking.order.end(), is_ranked);
+  const bool is_falling = matrix.better == BetterScore::Larger;
+  std::stable_sort(ranking.order.begin(), unranked, [&](std::size_t a, std::size_t b) {
+    return is_falling ? shown(a) > shown(b) : shown(a) < shown(b);
+  });
+
+  ranking.ranks.assign(matrix.entries.size(), 0);
+  for (auto place = ranking.order.begin(); place != unranked; ++place) {
+    const bool is_tied = place != ranking.order.begin() && shown(*place) == shown(*(place - 1));
+    ranking.ranks[*place] =
+        is_tied ? ranking.ranks[*(place - 1)] : static_cast<int>(place - ranking.order.begin()) + 1;
+  }
+  return ranking;
+}
 
 std::string score_text(const std::optional<double>& score) {
   return score ? fixed_text(*score, kScoreDigits) : kGap;
@@ -325,101 +401,6 @@ TextTable results_table(const std::vector<BenchmarkResult>& results) {
   for (std::size_t i = 0; i < results.size(); ++i) table.rows[i].push_back(results[i].problem);
   return table;
 }
-
-namespace {
-
-struct LabelMetric {
-  const char* key;
-  const char* title;
-  const char* column;
-};
-
-constexpr LabelMetric kMetrics[] = {
-    {"accuracy_all_views", "Accuracy: % of the pixels of all views", "accuracy"},
-    {"miou", "Mean intersection over union of the labels, %", "mIoU"},
-    {"macc", "Mean accuracy of the labels, %", "mAcc"},
-    {"boundary_accuracy", "Boundary accuracy: % of the pixels within 3 px of a true boundary",
-     "boundaries"},
-    {"thin_iou", "Mean intersection over union of the labels up to 4 px wide, %", "thin IoU"},
-    {"consistency", "Consistency: % of the rays whose label is that of the same point elsewhere",
-     "consistency"},
-};
-
-std::vector<BenchmarkResult> with_labels(const std::vector<BenchmarkResult>& results) {
-  std::vector<BenchmarkResult> labeled;
-  std::ranges::copy_if(results, std::back_inserter(labeled),
-                       [](const BenchmarkResult& result) { return !result.labels.empty(); });
-  return labeled;
-}
-
-ScoreMatrix percentages(const std::vector<BenchmarkResult>& results, const std::string& key) {
-  ScoreMatrix matrix = score_matrix(results, &BenchmarkResult::labels, key);
-  matrix.better = BetterScore::Larger;
-  for (auto& scores : matrix.scores) {
-    for (auto& score : scores) {
-      if (score) *score *= 100;
-    }
-  }
-  return matrix;
-}
-
-double mean_seconds(const std::vector<BenchmarkResult>& results, const std::string& entry) {
-  double sum = 0;
-  int count = 0;
-  for (const BenchmarkResult& result : results) {
-    if (result.entry != entry) continue;
-    sum += result.seconds;
-    ++count;
-  }
-  return count > 0 ? sum / count : 0;
-}
-
-TitledTable overview(const std::vector<BenchmarkResult>& results) {
-  TitledTable titled{"Labels ranked by average accuracy, % of all views",
-                     "Averages are over the scenes that every entry has; seconds are the mean over "
-                     "the scenes, without estimating disparity.",
-                     {{"algorithm", "rank"}, {}},
-                     {}};
-  std::vector<Ranking> rankings;
-  ScoreMatrix first;
-  for (const LabelMetric& metric : kMetrics) {
-    const ScoreMatrix matrix = percentages(results, metric.key);
-    rankings.push_back(rank_entries(matrix, kScoreDigits));
-    titled.table.header.emplace_back(metric.column);
-    if (first.entries.empty()) first = matrix;
-  }
-  titled.table.header.emplace_back("seconds");
-  for (const std::size_t entry : rankings[0].order) {
-    const int rank = rankings[0].ranks[entry];
-    std::vector<std::string> cells{first.entries[entry], rank > 0 ? std::to_string(rank) : "–"};
-    for (const Ranking& ranking : rankings) cells.push_back(score_text(ranking.averages[entry]));
-    cells.push_back(fixed_text(mean_seconds(results, first.entries[entry]), 2));
-    titled.table.rows.push_back(std::move(cells));
-  }
-  return titled;
-}
-
-/// The labels of a scene take the place of scenes.
-TitledTable table_of_scene(const std::vector<BenchmarkResult>& results, const std::string& scene) {
-  constexpr const char* prefix = "iou_label_";
-  std::vector<BenchmarkResult> of_labels;
-  for (const BenchmarkResult& result : results) {
-    if (result.scene != scene) continue;
-    for (const auto& [key, value] : result.labels) {
-      if (!key.starts_with(prefix)) continue;
-      BenchmarkResult& of_label = of_labels.emplace_back();
-      of_label.entry = result.entry;
-      of_label.scene = "label " + key.substr(std::string(prefix).size());
-      of_label.labels = {{prefix, value}};
-    }
-  }
-  TitledTable titled = accuracy_table(scene + ": intersection over union of each label, %",
-                                      percentages(of_labels, prefix));
-  titled.table.header.front() = "label";
-  return titled;
-}
-
-}  // namespace
 
 Metrics label_metrics(const LabelQuality& all_views, const LabelQuality& center,
                       const std::optional<double>& consistency) {

@@ -47,48 +47,6 @@ std::optional<std::size_t> best_of_all(const SearchScores& scores,
   return best;
 }
 
-}  // namespace
-
-std::vector<ParameterSet> search_grid(const std::vector<ParameterDescription>& parameters) {
-  ParameterSet defaults;
-  std::vector<ParameterSet> points{{}};
-  for (const auto& parameter : parameters) {
-    if (parameter.searched.empty()) continue;
-    defaults.emplace_back(parameter.key, parameter.default_value);
-    std::vector<ParameterSet> longer;
-    for (const ParameterSet& point : points) {
-      for (const ParameterValue& value : parameter.searched) {
-        longer.push_back(point);
-        longer.back().emplace_back(parameter.key, value);
-      }
-    }
-    points = std::move(longer);
-  }
-  std::erase(points, defaults);
-  points.insert(points.begin(), defaults);
-  return points;
-}
-
-ParameterChoice choose_parameters(const SearchScores& scores) {
-  ParameterChoice choice;
-  const std::size_t scene_count = scores.empty() ? 0 : scores.front().size();
-  std::vector<std::size_t> scored;
-  for (std::size_t scene = 0; scene < scene_count; ++scene) {
-    choice.per_scene.push_back(best_of_scene(scores, scene));
-    if (choice.per_scene.back()) scored.push_back(scene);
-  }
-  choice.equal = best_of_all(scores, scored);
-  choice.leave_one_out.resize(scene_count);
-  for (const std::size_t scene : scored) {
-    std::vector<std::size_t> others = scored;
-    std::erase(others, scene);
-    choice.leave_one_out[scene] = best_of_all(scores, others);
-  }
-  return choice;
-}
-
-namespace {
-
 /// Which point a protocol takes on a scene.
 enum class Rule { PerScene, Equal, LeaveOneOut, Default };
 constexpr std::array kRules{Rule::PerScene, Rule::Equal, Rule::LeaveOneOut, Rule::Default};
@@ -168,6 +126,44 @@ TitledTable method_table(const MethodSearch& search) {
 }
 
 }  // namespace
+
+std::vector<ParameterSet> search_grid(const std::vector<ParameterDescription>& parameters) {
+  ParameterSet defaults;
+  std::vector<ParameterSet> points{{}};
+  for (const auto& parameter : parameters) {
+    if (parameter.searched.empty()) continue;
+    defaults.emplace_back(parameter.key, parameter.default_value);
+    std::vector<ParameterSet> longer;
+    for (const ParameterSet& point : points) {
+      for (const ParameterValue& value : parameter.searched) {
+        longer.push_back(point);
+        longer.back().emplace_back(parameter.key, value);
+      }
+    }
+    points = std::move(longer);
+  }
+  std::erase(points, defaults);
+  points.insert(points.begin(), defaults);
+  return points;
+}
+
+ParameterChoice choose_parameters(const SearchScores& scores) {
+  ParameterChoice choice;
+  const std::size_t scene_count = scores.empty() ? 0 : scores.front().size();
+  std::vector<std::size_t> scored;
+  for (std::size_t scene = 0; scene < scene_count; ++scene) {
+    choice.per_scene.push_back(best_of_scene(scores, scene));
+    if (choice.per_scene.back()) scored.push_back(scene);
+  }
+  choice.equal = best_of_all(scores, scored);
+  choice.leave_one_out.resize(scene_count);
+  for (const std::size_t scene : scored) {
+    std::vector<std::size_t> others = scored;
+    std::erase(others, scene);
+    choice.leave_one_out[scene] = best_of_all(scores, others);
+  }
+  return choice;
+}
 
 std::vector<MethodSearch> gather_searches(const std::vector<SearchResult>& results) {
   std::vector<std::string> methods;

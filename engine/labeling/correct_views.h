@@ -3,7 +3,9 @@
 
 #include "engine/core/image.h"
 #include "engine/core/indices.h"
+#include "engine/core/light_field.h"
 #include "engine/core/progress.h"
+#include "engine/core/scene.h"
 #include "engine/labeling/ray_labeling.h"
 
 #include <cstdint>
@@ -11,6 +13,36 @@
 #include <vector>
 
 namespace episcope {
+
+/// Ids that are painted on any view, ascending. Throws InvalidInput if nothing or only one label is
+/// painted, or if scribbles do not fit the light field.
+[[nodiscard]] std::vector<std::int32_t> painted_labels(const Scribbles& scribbles,
+                                                       const LightField& light_field);
+
+/// Which painted views a labeler reads. A fill of all views says the same in each of them, so that
+/// a few suffice; rays carry to the others what these say.
+
+[[nodiscard]] bool have_same_strokes(const std::vector<ViewScribbles>& a,
+                                     const std::vector<ViewScribbles>& b);
+
+/// Most views whose strokes teach, unless more are needed to have every label.
+inline constexpr std::size_t kTeachingViews = 8;
+/// The views from which a forest learns: all, or of more than kTeachingViews those with most
+/// painted pixels, the most first, and any that alone has a label.
+[[nodiscard]] std::vector<const ViewScribbles*> teaching_views(
+    const std::vector<ViewScribbles>& views);
+
+/// Pixels of a view that have other strokes than before, `[y][x]`, 1 = changed.
+struct NewStrokes {
+  ViewIndex view;
+  Image<std::uint8_t> pixels;
+};
+/// Most views whose new strokes are read.
+inline constexpr std::size_t kNewViews = 4;
+/// New strokes of each view that has some. Of more than kNewViews views one remains: `first` if it
+/// has new strokes, else the one that has most.
+[[nodiscard]] std::vector<NewStrokes> new_strokes(const Scribbles& former, const Scribbles& now,
+                                                  ViewIndex first);
 
 /// The same probabilities with a layer for each label of `more`, which includes `ids`; what has
 /// none gets 0.
@@ -69,12 +101,12 @@ struct RayCorrection {
   std::function<void(const Progress&)> complete{};
 };
 
-/// Labels of all views, ids, after the probabilities of some rays have changed, as `smooth_rays`
-/// would give them: in the first view, rays within kReach_px of a changed one are solved again. In
-/// each other view, rays that near take the new labels of the first view where those have changed
-/// nearby, and are solved again beside boundaries and where the first view does not see their
-/// points. All others keep their labels. Then rays vote again whose evidence has changed. Costs,
-/// gap and votes are those of `smooth_rays`. Energy and bound are of the parts that were solved,
+/// Labels of all views, ids, after the probabilities of some rays have changed, as
+/// Regularizer::Rayspace would give them: in the first view, rays within kReach_px of a changed one
+/// are solved again. In each other view, rays that near take the new labels of the first view where
+/// those have changed nearby, and are solved again beside boundaries and where the first view does
+/// not see their points. All others keep their labels. Then rays vote again whose evidence has
+/// changed; costs, gap and votes are the same. Energy and bound are of the parts that were solved,
 /// with what borders them held. Precondition: `input` has disparities and probabilities of all
 /// views. Throws Cancelled.
 [[nodiscard]] RayLabeling correct_rays(const RayLabelingInput& input,

@@ -54,12 +54,6 @@ void weigh(const WeighedRow& row, float* p) {
   }
 }
 
-}  // namespace
-
-const LabelWeightsKernel kLabelWeightsKernel = {misfits, weigh};
-
-namespace {
-
 // Pixels wait for their neighbors along x, so the vectors run over the labels.
 inline void shorten(const DistanceGrid& grid, long to, long from, float way) {
   float* own = grid.distances + to * grid.pitch;
@@ -92,12 +86,6 @@ void sweep_up(const DistanceGrid& grid, int y) {
   }
 }
 
-}  // namespace
-
-const StrokeDistanceKernel kStrokeDistanceKernel = {sweep_down, sweep_up};
-
-namespace {
-
 inline Vec magnitude(Vec value) {
   return reinterpret_cast<Vec>(reinterpret_cast<IntVec>(value) & 0x7FFFFFFF);
 }
@@ -123,6 +111,10 @@ void filter(const SurfaceTaps& taps, float* const* out) {
 }
 
 }  // namespace
+
+const LabelWeightsKernel kLabelWeightsKernel = {misfits, weigh};
+
+const StrokeDistanceKernel kStrokeDistanceKernel = {sweep_down, sweep_up};
 
 const SurfaceKernel kSurfaceKernel = {filter};
 

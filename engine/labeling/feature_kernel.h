@@ -5,7 +5,7 @@
 
 namespace episcope {
 
-/// The surfaces of all labels as a row of a view meets them (label_surfaces.h): arrays of `pitch`
+/// The surfaces of all labels as a row of a view meets them (LabelSurfaces): arrays of `pitch`
 /// floats, one a label, with dx = x − `middle`.
 struct SurfaceRow {
   int width = 0;

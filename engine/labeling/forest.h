@@ -5,7 +5,7 @@
 #include "engine/core/isa.h"
 #include "engine/core/memory.h"
 #include "engine/core/progress.h"
-#include "engine/cuda/forest_votes.h"
+#include "engine/cuda/ray_labels.h"
 #include "engine/labeling/forest_kernel.h"
 
 #include <cstdint>

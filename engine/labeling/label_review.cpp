@@ -51,33 +51,6 @@ PixelIndex first_pixel(const Blob& blob) {
   return {blob.bounds.y0, blob.bounds.x0 + static_cast<int>(x)};
 }
 
-}  // namespace
-
-std::vector<Blob> blobs_of(ImageView<const std::uint8_t> mask, Neighbors neighbors,
-                           int least_pixels) {
-  if (mask.empty()) return {};
-  const cv::Mat pixels(mask.height, mask.width, CV_8U, const_cast<std::uint8_t*>(mask.data),
-                       static_cast<std::size_t>(mask.row_stride));
-  cv::Mat numbers;
-  cv::Mat statistics;
-  cv::Mat centers;
-  const int count = cv::connectedComponentsWithStats(pixels, numbers, statistics, centers,
-                                                     neighbors == Neighbors::Sides ? 4 : 8);
-  std::vector<Blob> blobs;
-  for (int number = 1; number < count; ++number) {  // 0 is what the mask leaves out
-    const int* row = statistics.ptr<int>(number);
-    if (row[cv::CC_STAT_AREA] >= least_pixels) blobs.push_back(blob_of(numbers, number, row));
-  }
-  // OpenCV numbers them as its threads find them.
-  std::ranges::sort(blobs, {}, [](const Blob& blob) {
-    const PixelIndex first = first_pixel(blob);
-    return std::pair(first.y, first.x);
-  });
-  return blobs;
-}
-
-namespace {
-
 // By pixel: how doubtful its label is, and which layer of the probabilities speaks against it.
 struct Doubts {
   Image<float> doubt;
@@ -143,33 +116,6 @@ LabelDoubt judged(std::int32_t label, Blob blob, const Doubts& doubts,
   return found;
 }
 
-}  // namespace
-
-std::vector<LabelDoubt> label_doubts(VolumeView<const std::uint8_t> probabilities,
-                                     const std::vector<std::int32_t>& ids,
-                                     ImageView<const std::int32_t> labels,
-                                     ImageView<const std::uint8_t> painted,
-                                     const DoubtChoice& choice) {
-  const bool fits =
-      probabilities.height == labels.height && probabilities.width == labels.width &&
-      probabilities.layers == static_cast<int>(ids.size()) &&
-      (painted.empty() || (painted.height == labels.height && painted.width == labels.width));
-  if (!fits) throw InvalidInput("probabilities, labels and scribbles differ in size");
-  const Doubts doubts = doubts_of(probabilities, ids, labels);
-  std::vector<LabelDoubt> found;
-  for (const std::int32_t id : ids) {
-    const Image<std::uint8_t> mask = doubtful(id, doubts, labels, painted, choice);
-    for (Blob& blob : blobs_of(mask, Neighbors::Sides)) {
-      found.push_back(judged(id, std::move(blob), doubts, ids));
-    }
-  }
-  std::ranges::stable_sort(found, std::ranges::greater(), &LabelDoubt::gain);
-  if (found.size() > choice.count) found.resize(choice.count);
-  return found;
-}
-
-namespace {
-
 bool reaches_border(const Blob& blob, ImageView<const std::int32_t> labels) {
   return blob.bounds.y0 == 0 || blob.bounds.x0 == 0 || blob.bounds.y1 == labels.height ||
          blob.bounds.x1 == labels.width;
@@ -184,43 +130,6 @@ std::int32_t most_frequent(const Blob& blob, ImageView<const std::int32_t> label
   }
   return std::ranges::max_element(counts, {}, [](const auto& each) { return each.second; })->first;
 }
-
-}  // namespace
-
-std::vector<LabelPiece> pieces_of(ImageView<const std::int32_t> labels, std::int32_t label) {
-  std::vector<LabelPiece> pieces;
-  for (Blob& blob : blobs_of(label_mask(labels, label), Neighbors::Sides)) {
-    pieces.push_back({PieceKind::Island, label, std::move(blob)});
-  }
-  if (pieces.empty()) return pieces;
-  for (Blob& blob : blobs_of(label_mask(labels, label, {0, 255}), Neighbors::Corners)) {
-    if (reaches_border(blob, labels)) continue;
-    const std::int32_t inside = most_frequent(blob, labels);
-    pieces.push_back({PieceKind::Hole, inside, std::move(blob)});
-  }
-  const auto is_larger = [](const LabelPiece& a, const LabelPiece& b) {
-    return a.blob.pixels > b.blob.pixels;
-  };
-  std::ranges::stable_sort(pieces, is_larger);
-  const auto main = std::ranges::find(pieces, PieceKind::Island, &LabelPiece::kind);
-  main->kind = PieceKind::Main;
-  std::rotate(pieces.begin(), main, std::next(main));
-  return pieces;
-}
-
-Image<std::uint8_t> label_mask(ImageView<const std::int32_t> labels, std::int32_t label,
-                               MaskValues values) {
-  Image<std::uint8_t> mask(labels.height, labels.width);
-  for (int y = 0; y < labels.height; ++y) {
-    const std::int32_t* row = labels.row(y);
-    std::transform(row, row + labels.width, mask.row(y), [=](std::int32_t each) {
-      return each == label ? values.of_label : values.of_others;
-    });
-  }
-  return mask;
-}
-
-namespace {
 
 constexpr double kReach = 3;  // of a Gaussian, in standard deviations
 
@@ -257,7 +166,111 @@ cv::Mat weights_of(std::int32_t label, const PixelRect& rect, ImageView<const st
   return weights;
 }
 
+struct Pair {
+  ViewIndex from, to;
+};
+
+// Row by row, so that a stop request is seen.
+LabelConsistency compare(const ViewStack<std::int32_t>& labels, const DisparityField& disparity,
+                         const Pair& pair, const Progress& progress) {
+  LabelConsistency found;
+  const ViewIndex step{pair.to.v - pair.from.v, pair.to.u - pair.from.u};
+  const auto here = labels.view(pair.from), there = labels.view(pair.to);
+  const DisparityView from = disparity.view(pair.from), to = disparity.view(pair.to);
+  std::vector<std::int32_t> targets(labels.width());
+  for (int y = 0; y < labels.height(); ++y) {
+    progress.check();
+    find_ray_targets(from, to, step, y, targets.data());
+    for (int x = 0; x < labels.width(); ++x) {
+      if (targets[x] < 0) continue;
+      ++found.visible;
+      found.agreeing += here.at(y, x) == there.data[targets[x]] ? 1 : 0;
+    }
+  }
+  found.pairs = static_cast<std::int64_t>(labels.view_size());
+  return found;
+}
+
 }  // namespace
+
+std::vector<Blob> blobs_of(ImageView<const std::uint8_t> mask, Neighbors neighbors,
+                           int least_pixels) {
+  if (mask.empty()) return {};
+  const cv::Mat pixels(mask.height, mask.width, CV_8U, const_cast<std::uint8_t*>(mask.data),
+                       static_cast<std::size_t>(mask.row_stride));
+  cv::Mat numbers;
+  cv::Mat statistics;
+  cv::Mat centers;
+  const int count = cv::connectedComponentsWithStats(pixels, numbers, statistics, centers,
+                                                     neighbors == Neighbors::Sides ? 4 : 8);
+  std::vector<Blob> blobs;
+  for (int number = 1; number < count; ++number) {  // 0 is what the mask leaves out
+    const int* row = statistics.ptr<int>(number);
+    if (row[cv::CC_STAT_AREA] >= least_pixels) blobs.push_back(blob_of(numbers, number, row));
+  }
+  // OpenCV numbers them as its threads find them.
+  std::ranges::sort(blobs, {}, [](const Blob& blob) {
+    const PixelIndex first = first_pixel(blob);
+    return std::pair(first.y, first.x);
+  });
+  return blobs;
+}
+
+std::vector<LabelDoubt> label_doubts(VolumeView<const std::uint8_t> probabilities,
+                                     const std::vector<std::int32_t>& ids,
+                                     ImageView<const std::int32_t> labels,
+                                     ImageView<const std::uint8_t> painted,
+                                     const DoubtChoice& choice) {
+  const bool fits =
+      probabilities.height == labels.height && probabilities.width == labels.width &&
+      probabilities.layers == static_cast<int>(ids.size()) &&
+      (painted.empty() || (painted.height == labels.height && painted.width == labels.width));
+  if (!fits) throw InvalidInput("probabilities, labels and scribbles differ in size");
+  const Doubts doubts = doubts_of(probabilities, ids, labels);
+  std::vector<LabelDoubt> found;
+  for (const std::int32_t id : ids) {
+    const Image<std::uint8_t> mask = doubtful(id, doubts, labels, painted, choice);
+    for (Blob& blob : blobs_of(mask, Neighbors::Sides)) {
+      found.push_back(judged(id, std::move(blob), doubts, ids));
+    }
+  }
+  std::ranges::stable_sort(found, std::ranges::greater(), &LabelDoubt::gain);
+  if (found.size() > choice.count) found.resize(choice.count);
+  return found;
+}
+
+std::vector<LabelPiece> pieces_of(ImageView<const std::int32_t> labels, std::int32_t label) {
+  std::vector<LabelPiece> pieces;
+  for (Blob& blob : blobs_of(label_mask(labels, label), Neighbors::Sides)) {
+    pieces.push_back({PieceKind::Island, label, std::move(blob)});
+  }
+  if (pieces.empty()) return pieces;
+  for (Blob& blob : blobs_of(label_mask(labels, label, {0, 255}), Neighbors::Corners)) {
+    if (reaches_border(blob, labels)) continue;
+    const std::int32_t inside = most_frequent(blob, labels);
+    pieces.push_back({PieceKind::Hole, inside, std::move(blob)});
+  }
+  const auto is_larger = [](const LabelPiece& a, const LabelPiece& b) {
+    return a.blob.pixels > b.blob.pixels;
+  };
+  std::ranges::stable_sort(pieces, is_larger);
+  const auto main = std::ranges::find(pieces, PieceKind::Island, &LabelPiece::kind);
+  main->kind = PieceKind::Main;
+  std::rotate(pieces.begin(), main, std::next(main));
+  return pieces;
+}
+
+Image<std::uint8_t> label_mask(ImageView<const std::int32_t> labels, std::int32_t label,
+                               MaskValues values) {
+  Image<std::uint8_t> mask(labels.height, labels.width);
+  for (int y = 0; y < labels.height; ++y) {
+    const std::int32_t* row = labels.row(y);
+    std::transform(row, row + labels.width, mask.row(y), [=](std::int32_t each) {
+      return each == label ? values.of_label : values.of_others;
+    });
+  }
+  return mask;
+}
 
 Image<std::int32_t> smooth_boundaries(ImageView<const std::int32_t> labels,
                                       ImageView<const std::uint8_t> painted, double smoothing_px) {
@@ -288,35 +301,6 @@ Image<std::int32_t> smooth_boundaries(ImageView<const std::int32_t> labels,
   }
   return smooth;
 }
-
-namespace {
-
-struct Pair {
-  ViewIndex from, to;
-};
-
-// Row by row, so that a stop request is seen.
-LabelConsistency compare(const ViewStack<std::int32_t>& labels, const DisparityField& disparity,
-                         const Pair& pair, const Progress& progress) {
-  LabelConsistency found;
-  const ViewIndex step{pair.to.v - pair.from.v, pair.to.u - pair.from.u};
-  const auto here = labels.view(pair.from), there = labels.view(pair.to);
-  const DisparityView from = disparity.view(pair.from), to = disparity.view(pair.to);
-  std::vector<std::int32_t> targets(labels.width());
-  for (int y = 0; y < labels.height(); ++y) {
-    progress.check();
-    find_ray_targets(from, to, step, y, targets.data());
-    for (int x = 0; x < labels.width(); ++x) {
-      if (targets[x] < 0) continue;
-      ++found.visible;
-      found.agreeing += here.at(y, x) == there.data[targets[x]] ? 1 : 0;
-    }
-  }
-  found.pairs = static_cast<std::int64_t>(labels.view_size());
-  return found;
-}
-
-}  // namespace
 
 LabelConsistency label_consistency(const ViewStack<std::int32_t>& labels,
                                    const DisparityField& disparity, const Progress& progress) {

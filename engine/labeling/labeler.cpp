@@ -5,12 +5,10 @@
 #include "engine/core/parallel.h"
 #include "engine/cuda/device.h"
 #include "engine/labeling/correct_views.h"
-#include "engine/labeling/edge_probability.h"
-#include "engine/labeling/painted_views.h"
 #include "engine/labeling/pixel_features.h"
 #include "engine/labeling/predict_from_strokes.h"
+#include "engine/labeling/ray_labeling.h"
 #include "engine/labeling/reweight_by_color.h"
-#include "engine/labeling/solve_views.h"
 
 #include <fmt/format.h>
 
@@ -34,7 +32,7 @@ void require_views(ViewRectangle views, GridShape grid) {
 
 // Throws InvalidInput if the regularizer joins views and there is no disparity to join them by.
 void require_disparity(Regularizer regularizer, bool has_disparity) {
-  if (has_disparity || !info_of(regularizer).joins_views) return;
+  if (has_disparity || !joins_views(regularizer)) return;
   throw InvalidInput(
       "labels that are consistent along rays need the disparity of all views; estimate it first, "
       "or smooth each view alone");
@@ -450,7 +448,7 @@ struct Labeler::State {
     LabelProbabilities& own = labeling.probabilities;
     ViewRectangle views{own.first, own.grid};
     // Where rays of other views agree, two of them are nearly as informative as all.
-    if (info_of(regularizer).joins_views) views = adjacent_views(own.first, light_field->grid());
+    if (joins_views(regularizer)) views = adjacent_views(own.first, light_field->grid());
     progress.step("finding edges");
     find_edges(views, progress.part(0, 0.05));
     RayLabelingParameters options = options_of(learned.parameters);
@@ -468,7 +466,7 @@ struct Labeler::State {
   }
 
   void take_most_probable(Labeling& labeling, const Progress& progress) const {
-    labeling.labels = most_probable_labels_of_all({&labeling.probabilities}, {}, progress).labels;
+    labeling.labels = label_rays({&labeling.probabilities}, Regularizer::None, {}, progress).labels;
     clear_invalid(labeling.labels);
   }
 

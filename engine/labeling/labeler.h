@@ -67,11 +67,11 @@ struct LabelCorrection {
 /// painted views (of more than eight, those with most painted pixels, and any that alone has a
 /// label), equally many per label, and votes on the pixels of the requested views by their
 /// features (engine/labeling/pixel_features.h). Its votes are weighted by how well the
-/// disparity of a pixel fits the surface of each label's strokes (label_surfaces.h), if the
-/// parameters ask for it. With estimated disparity, a surface counts only where it agrees with the
-/// image, and not in gaps of thin objects (predict_from_strokes.h). A forest knows nothing about
-/// what lies between a pixel and a stroke, so votes are also weighted by how near the strokes of
-/// each label are along surfaces, exp(−nearness·excess) (predict_from_strokes.h).
+/// disparity of a pixel fits the surface of each label's strokes if the parameters ask for
+/// it. With estimated disparity, a surface counts only where it agrees with the image, and not in
+/// gaps of thin objects (predict_from_strokes.h). A forest knows nothing about what lies between a
+/// pixel and a stroke, so votes are also weighted by how near the strokes of each label are along
+/// surfaces, exp(−nearness·excess) (predict_from_strokes.h).
 ///
 /// Painted pixels keep their labels in the view where they were painted, and smoothing bends to
 /// them. Unless disparity is known to be right (it comes without confidence), the middle view is

@@ -6,34 +6,46 @@
 #include "engine/core/progress.h"
 #include "engine/core/schema.h"
 #include "engine/labeling/ray_labeling.h"
-#include "engine/labeling/ray_vote.h"
 
 #include <cstdint>
 
 namespace episcope {
 
-/// Labels of all views that minimize the energy of [WSG13] as a whole: the costs of all rays,
-/// −log p; boundaries within the views, weighted by edges (λ J_st); and μ times the weight of every
-/// line of a horizontal or vertical EPI on which the label changes from one view to the next
-/// (μ (J_xs + J_yt)), where the point is visible in both (`RayLines`). Relaxed to the simplex and
-/// solved with a bound for the whole (engine/solvers/linked_labeling.h), to
-/// `parameters.gap_joint`. Energy and bound belong to the joint problem. Throws Cancelled.
+/// Labels of all views after each ray has taken the label that most rays of its scene point have:
+/// the rays in the same row and column of the camera grid, along the lines of the horizontal and
+/// vertical EPI through it, where the point is visible
+/// (engine/labeling/ray_labeling.h). A vote is weighted by the trust in its color
+/// (engine/labeling/ray_labeling.h); the ray's own label counts 1 and wins ties. Rays of all
+/// other views do not vote: they would spread errors of whole regions.
 ///
-/// 16 bytes a ray and label and 46 a ray: 5.5 GB for 9×9×512×512 with 13 labels.
-[[nodiscard]] RayLabeling smooth_lines(const RayLabelingInput& input,
-                                       const RayLabelingParameters& parameters,
-                                       const Progress& progress);
+/// The layers `labels` are 0 … `label_count` − 1. Takes (v + u − 1)·rays steps. Precondition:
+/// `disparity` and `colors` hold all views with labels. Throws Cancelled.
+struct RayVotes {
+  int label_count = 0;
+  const DisparityField& disparity;
+  const RayColors& colors;
+  const RayLabelingInput* input = nullptr;  ///< Whose strokes rounds of votes keep; null = none.
+};
+[[nodiscard]] ViewStack<std::int32_t> vote_along_rays(const ViewStack<std::int32_t>& labels,
+                                                      const RayVotes& votes,
+                                                      const Progress& progress);
+/// Votes again, faster: only rays vote whose evidence has changed since `before`, from which
+/// `labels` came by a vote.
+[[nodiscard]] ViewStack<std::int32_t> vote_again_along_rays(const ViewStack<std::int32_t>& before,
+                                                            const ViewStack<std::int32_t>& labels,
+                                                            const RayVotes& votes,
+                                                            const Progress& progress);
 
-/// Labels of one view, solved together with all views that have probabilities, to `parameters.gap`.
-[[nodiscard]] RayLabeling smooth_lines_of_view(const RayLabelingInput& input, ViewIndex view,
-                                               const RayLabelingParameters& parameters,
-                                               const Progress& progress);
-
-/// The energy that `smooth_lines` minimizes, of given labels (ids) of all views that have
-/// probabilities.
-[[nodiscard]] double line_energy(const RayLabelingInput& input,
-                                 const RayLabelingParameters& parameters,
-                                 const ViewStack<std::int32_t>& labels);
+/// The rays whose vote (engine/labeling/regularizer.h) may change because labels have: 1 for rays
+/// whose own label differs between `before` and `after`, and for all in the same row and column of
+/// the camera grid that may see the point of one that does, else 0. Some more are marked: where a
+/// ray arrives is known to as many pixels as the disparities of one point may differ
+/// (engine/labeling/ray_labeling.h). Precondition: `disparity` holds all views with labels.
+/// Throws Cancelled.
+[[nodiscard]] ViewStack<std::uint8_t> changed_rays(const ViewStack<std::int32_t>& before,
+                                                   const ViewStack<std::int32_t>& after,
+                                                   const DisparityField& disparity,
+                                                   const Progress& progress);
 
 /// Lines of the horizontal or vertical EPIs from one view to the next of its row or column.
 struct RayLines {
@@ -59,30 +71,19 @@ struct RayLineSources {
 [[nodiscard]] RayLines find_ray_lines(const RayLineSources& sources, ViewIndex view, ViewIndex next,
                                       const Progress& progress);
 
-/// How labels are made consistent. To add a method: an enumerator, two functions like
-/// `smooth_views` and `smooth_view`, and a row of the table in regularizer.cpp.
+/// How labels are made consistent. To add a method: an enumerator and a row of the table in
+/// regularizer.cpp.
 enum class Regularizer {
-  None,      ///< Not at all: the most probable label of each ray.
+  None,      ///< Not at all: the most probable label of each ray. Energy and bound are 0.
   View,      ///< Within each view, whatever the others say.
   Rayspace,  ///< Within each view and along the rays through all of them.
   Wsg13,     ///< All views as one problem, coupled along the lines of EPIs.
 };
 [[nodiscard]] Names<Regularizer> names_of(Regularizer);
 
-/// A row of the table of regularizers.
-struct RegularizerInfo {
-  Named<Regularizer> choice;
-  /// Whether the labels of one view depend on the others: needs the disparity of all of them, and
-  /// for a single view the probabilities of its neighbors.
-  bool joins_views = false;
-  /// Labels of all views that have probabilities, and of one of them.
-  RayLabeling (*label_all)(const RayLabelingInput&, const RayLabelingParameters&,
-                           const Progress&) = nullptr;
-  RayLabeling (*label_one)(const RayLabelingInput&, ViewIndex, const RayLabelingParameters&,
-                           const Progress&) = nullptr;
-};
-
-[[nodiscard]] const RegularizerInfo& info_of(Regularizer regularizer);
+/// Whether the labels of one view depend on the others: needs the disparity of all of them, and for
+/// a single view the probabilities of its neighbors.
+[[nodiscard]] bool joins_views(Regularizer regularizer);
 
 /// Labels of all views that have probabilities. Throws InvalidInput if parts of the input are
 /// missing or do not fit, Cancelled. Ends each solver after its next iteration at
@@ -98,56 +99,10 @@ struct RegularizerInfo {
                                      const RayLabelingParameters& parameters,
                                      const Progress& progress);
 
-/// The most probable label of each ray of all views, and of one view, without any coupling. Energy
-/// and bound are 0. Throws Cancelled.
-[[nodiscard]] RayLabeling most_probable_labels_of_all(const RayLabelingInput& input,
-                                                      const RayLabelingParameters& parameters,
-                                                      const Progress& progress);
-[[nodiscard]] RayLabeling most_probable_labels_of_view(const RayLabelingInput& input,
-                                                       ViewIndex view,
-                                                       const RayLabelingParameters& parameters,
-                                                       const Progress& progress);
-
-/// Labels of all views, and of one view: boundaries within a view cost their length, weighted by
-/// edges (J_st of [WSG13]); views are independent. Disparities speed it up: a view then starts from
-/// the result of its neighbor (solve_views). Energy and bound are sums over the views. Throws
-/// Cancelled.
-[[nodiscard]] RayLabeling smooth_views(const RayLabelingInput& input,
-                                       const RayLabelingParameters& parameters,
-                                       const Progress& progress);
-[[nodiscard]] RayLabeling smooth_view(const RayLabelingInput& input, ViewIndex view,
-                                      const RayLabelingParameters& parameters,
-                                      const Progress& progress);
-
-/// Labels of all views that are consistent along the rays. The energy of [WSG13] has per-view TV
-/// weighted by edges (J_st), variation along the lines of horizontal and vertical EPIs (J_xs, J_yt)
-/// and one label per ray, relaxed to the simplex.
-///
-/// It is minimized in two steps. Each view is solved alone
-/// (engine/solvers/simplex_labeling.h), the cost of a ray being the mean over the rays of
-/// the same scene point in the nearest 5×5 views, where their colors agree (`fill_track_costs`):
-/// errors of single rays average out. Then the rays of a scene point vote twice on their label
-/// along their EPIs (ray_vote.h), which makes labels constant along lines where the views had left
-/// them different.
-///
-/// Why: a finite μ needs 8 floats per ray and label, 8 GB for 9×9×512×512 with 13 labels. The limit
-/// μ → ∞, one unknown per scene point, carried from five views to all others, is as quick but also
-/// carries labels along wrong disparities (tests/accuracy/tuning.md).
-/// Energy and bound are sums over the views as solved, before the vote. Throws Cancelled.
-[[nodiscard]] RayLabeling smooth_rays(const RayLabelingInput& input,
-                                      const RayLabelingParameters& parameters,
-                                      const Progress& progress);
-
-/// The votes of `smooth_rays` on `labels`, which are layers. With `before`, from which `labels`
-/// came, only rays vote whose evidence has changed since. Painted pixels keep their labels. Throws
-/// Cancelled.
+/// The votes of Regularizer::Rayspace on `labels`, which are layers. With `before`, from which
+/// `labels` came, only rays vote whose evidence has changed since. Painted pixels keep their
+/// labels. Throws Cancelled.
 void vote_in_rounds(const RayVotes& votes, const ViewStack<std::int32_t>* before,
                     const Progress& progress, ViewStack<std::int32_t>& labels);
-
-/// Labels of one view, the cost of a ray being the mean over all views that have probabilities;
-/// there is no vote.
-[[nodiscard]] RayLabeling smooth_rays_of_view(const RayLabelingInput& input, ViewIndex view,
-                                              const RayLabelingParameters& parameters,
-                                              const Progress& progress);
 
 }  // namespace episcope

@@ -30,7 +30,7 @@ Image<float> lab_of(const LightField& light_field, ViewIndex view) {
 Image<std::int32_t> layers_of(const RayLabelingInput& input, ViewIndex view,
                               RayLabelingParameters parameters, const Progress& progress) {
   parameters.gap = kReferenceGap;
-  const RayLabeling smoothed = smooth_view(input, view, parameters, progress);
+  const RayLabeling smoothed = label_view(input, view, Regularizer::View, parameters, progress);
   const ImageView<const std::int32_t> labels = smoothed.labels.view(view);
   Image<std::int32_t> layers(labels.height, labels.width);
   find_layers(labels, input.probabilities->ids, layers.view());
@@ -106,6 +106,37 @@ class Judge {
   std::vector<float> samples_, own_;
 };
 
+constexpr float kNoise = 0.03F;
+constexpr float kBesideOthers = 0.1F;  // What a pixel beside another label counts.
+constexpr float kFewest = 2;           // Pixels of a label that is nearby.
+constexpr float kFloor = 0.01F;
+
+// Side of a square in views of this size.
+int square_of(int height, int width) {
+  return std::clamp(std::max(height, width) / 64, 2, 4);
+}
+
+int squares_in(int pixels, int square_px) {
+  return (pixels + square_px - 1) / square_px;
+}
+
+bool is_beside_others(ImageView<const std::int32_t> labels, int y, int x) {
+  const int left = std::max(x - 1, 0), right = std::min(x + 1, labels.width - 1);
+  const int last = std::min(y + 1, labels.height - 1);
+  for (int row = std::max(y - 1, 0); row <= last; ++row) {
+    const std::int32_t* const in = labels.row(row);
+    for (int column = left; column <= right; ++column) {
+      if (in[column] != labels.at(y, x)) return true;
+    }
+  }
+  return false;
+}
+
+int square_at(float place, int square_px, int count) {
+  const float square = std::floor(place / static_cast<float>(square_px));
+  return static_cast<int>(std::clamp(square, 0.0F, static_cast<float>(count - 1)));
+}
+
 }  // namespace
 
 void reweight_by_color(const RayLabelingInput& input, ViewIndex reference,
@@ -146,41 +177,6 @@ void reweight_view_by_color(const LightField& light_field, ViewIndex view,
     }
   });
 }
-
-namespace {
-
-constexpr float kNoise = 0.03F;
-constexpr float kBesideOthers = 0.1F;  // What a pixel beside another label counts.
-constexpr float kFewest = 2;           // Pixels of a label that is nearby.
-constexpr float kFloor = 0.01F;
-
-// Side of a square in views of this size.
-int square_of(int height, int width) {
-  return std::clamp(std::max(height, width) / 64, 2, 4);
-}
-
-int squares_in(int pixels, int square_px) {
-  return (pixels + square_px - 1) / square_px;
-}
-
-bool is_beside_others(ImageView<const std::int32_t> labels, int y, int x) {
-  const int left = std::max(x - 1, 0), right = std::min(x + 1, labels.width - 1);
-  const int last = std::min(y + 1, labels.height - 1);
-  for (int row = std::max(y - 1, 0); row <= last; ++row) {
-    const std::int32_t* const in = labels.row(row);
-    for (int column = left; column <= right; ++column) {
-      if (in[column] != labels.at(y, x)) return true;
-    }
-  }
-  return false;
-}
-
-int square_at(float place, int square_px, int count) {
-  const float square = std::floor(place / static_cast<float>(square_px));
-  return static_cast<int>(std::clamp(square, 0.0F, static_cast<float>(count - 1)));
-}
-
-}  // namespace
 
 LocalColors::Sums& LocalColors::Sums::operator+=(const Sums& other) {
   weight += other.weight;

@@ -7,7 +7,6 @@
 #include <cmath>
 
 namespace episcope::render {
-
 namespace {
 
 constexpr double kAxisQuantile = 0.002;
@@ -53,33 +52,6 @@ Histogram histogram_of(const std::vector<float>& values, Interval axis, int bars
   }
   return histogram;
 }
-
-}  // namespace
-
-RegionStatistics region_statistics(const MeasuredMap& map, PixelRect region, Interval shown,
-                                   int bars) {
-  region = clipped(region, map.values.height, map.values.width);
-  RegionStatistics statistics;
-  std::vector<float> values = values_in(map, region, statistics.invalid);
-  statistics.count = values.size();
-  if (values.empty()) return statistics;
-  double sum = 0;
-  for (const float value : values) sum += value;
-  statistics.mean = sum / static_cast<double>(values.size());
-  const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
-  statistics.min = *least;
-  statistics.max = *greatest;
-  statistics.median = quantile(values, 0.5);
-  statistics.robust = {quantile(values, kRobustQuantile), quantile(values, 1 - kRobustQuantile)};
-  Interval axis{quantile(values, kAxisQuantile), quantile(values, 1 - kAxisQuantile)};
-  if (shown.length() > 0) {
-    axis = {std::min(axis.min, shown.min), std::max(axis.max, shown.max)};
-  }
-  statistics.histogram = histogram_of(values, axis, bars);
-  return statistics;
-}
-
-namespace {
 
 // Ranges that belong to quantities.
 constexpr Interval kShares{0, 1}, kErrors{-0.2, 0.2}, kSizes{0, 0.1}, kLayerCounts{0, 3};
@@ -140,6 +112,29 @@ constexpr QuantityInfo kQuantities[] = {
 };
 
 }  // namespace
+
+RegionStatistics region_statistics(const MeasuredMap& map, PixelRect region, Interval shown,
+                                   int bars) {
+  region = clipped(region, map.values.height, map.values.width);
+  RegionStatistics statistics;
+  std::vector<float> values = values_in(map, region, statistics.invalid);
+  statistics.count = values.size();
+  if (values.empty()) return statistics;
+  double sum = 0;
+  for (const float value : values) sum += value;
+  statistics.mean = sum / static_cast<double>(values.size());
+  const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
+  statistics.min = *least;
+  statistics.max = *greatest;
+  statistics.median = quantile(values, 0.5);
+  statistics.robust = {quantile(values, kRobustQuantile), quantile(values, 1 - kRobustQuantile)};
+  Interval axis{quantile(values, kAxisQuantile), quantile(values, 1 - kAxisQuantile)};
+  if (shown.length() > 0) {
+    axis = {std::min(axis.min, shown.min), std::max(axis.max, shown.max)};
+  }
+  statistics.histogram = histogram_of(values, axis, bars);
+  return statistics;
+}
 
 std::span<const QuantityInfo> quantities() {
   return kQuantities;

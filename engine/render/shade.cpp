@@ -8,15 +8,115 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <span>
+#include <string_view>
 #include <type_traits>
+#include <vector>
 
 namespace episcope::render {
-
 namespace {
+
+constexpr int kGlyphHeight = 7;
+constexpr int kGlyphWidth = 5;
+constexpr int kGlyphStep = kGlyphWidth + 1;
+constexpr int kValues = 5;
+constexpr int kLeastHeight = 100;  ///< Room for the values, the unit and n/a.
+
+/// A letter of five columns, the left one in the highest bit, from top to bottom.
+struct Glyph {
+  char letter;
+  std::array<std::uint8_t, kGlyphHeight> rows;
+};
+
+constexpr Glyph kGlyphs[] = {
+    {'0', {0x0E, 0x11, 0x13, 0x15, 0x19, 0x11, 0x0E}},
+    {'1', {0x04, 0x0C, 0x04, 0x04, 0x04, 0x04, 0x0E}},
+    {'2', {0x0E, 0x11, 0x01, 0x02, 0x04, 0x08, 0x1F}},
+    {'3', {0x1F, 0x02, 0x04, 0x02, 0x01, 0x11, 0x0E}},
+    {'4', {0x02, 0x06, 0x0A, 0x12, 0x1F, 0x02, 0x02}},
+    {'5', {0x1F, 0x10, 0x1E, 0x01, 0x01, 0x11, 0x0E}},
+    {'6', {0x06, 0x08, 0x10, 0x1E, 0x11, 0x11, 0x0E}},
+    {'7', {0x1F, 0x01, 0x02, 0x04, 0x08, 0x08, 0x08}},
+    {'8', {0x0E, 0x11, 0x11, 0x0E, 0x11, 0x11, 0x0E}},
+    {'9', {0x0E, 0x11, 0x11, 0x0F, 0x01, 0x02, 0x0C}},
+    {'-', {0x00, 0x00, 0x00, 0x1F, 0x00, 0x00, 0x00}},
+    {'+', {0x00, 0x04, 0x04, 0x1F, 0x04, 0x04, 0x00}},
+    {'.', {0x00, 0x00, 0x00, 0x00, 0x00, 0x0C, 0x0C}},
+    {'/', {0x00, 0x01, 0x02, 0x04, 0x08, 0x10, 0x00}},
+    {'a', {0x00, 0x00, 0x0E, 0x01, 0x0F, 0x11, 0x0F}},
+    {'e', {0x00, 0x00, 0x0E, 0x11, 0x1F, 0x10, 0x0E}},
+    {'n', {0x00, 0x00, 0x16, 0x19, 0x11, 0x11, 0x11}},
+    {'p', {0x00, 0x00, 0x1E, 0x11, 0x1E, 0x10, 0x10}},
+    {'x', {0x00, 0x00, 0x11, 0x0A, 0x04, 0x0A, 0x11}},
+};
+
+/// A canvas whose coordinates are those of the picture.
+class Canvas {
+ public:
+  Canvas(int height, int width, int scale) : image_(height, width, 4), scale_(scale) {
+    std::fill_n(image_.data(), image_.size(), std::uint8_t{255});
+  }
+
+  void fill(PixelRect rect, Rgb color) {
+    for (int y = rect.y0; y < std::min(rect.y1, image_.height()); ++y) {
+      for (int x = rect.x0; x < std::min(rect.x1, image_.width()); ++x) {
+        std::ranges::copy(color, &image_.at(y, x));
+      }
+    }
+  }
+
+  /// Black, with its upper left corner there; letters without a glyph are left blank.
+  void write(std::string_view text, int y, int x) {
+    for (const char letter : text) {
+      const auto glyph = std::ranges::find(kGlyphs, letter, &Glyph::letter);
+      if (glyph != std::end(kGlyphs)) draw(*glyph, y, x);
+      x += kGlyphStep * scale_;
+    }
+  }
+
+  /// On white where it is transparent.
+  void place(const Image<std::uint8_t>& picture) {
+    for (int y = 0; y < picture.height(); ++y) {
+      for (int x = 0; x < picture.width(); ++x) {
+        const std::uint8_t* from = &picture.at(y, x);
+        std::uint8_t* to = &image_.at(y, x);
+        for (int c = 0; c < 3; ++c) {
+          to[c] = static_cast<std::uint8_t>(255 - (255 - from[c]) * from[3] / 255);
+        }
+      }
+    }
+  }
+
+  [[nodiscard]] Image<std::uint8_t> take() { return std::move(image_); }
+
+ private:
+  void draw(const Glyph& glyph, int y, int x) {
+    for (int row = 0; row < kGlyphHeight; ++row) {
+      for (int column = 0; column < kGlyphWidth; ++column) {
+        if ((glyph.rows[row] >> (kGlyphWidth - 1 - column) & 1) == 0) continue;
+        const int top = y + row * scale_, left = x + column * scale_;
+        fill({top, left, top + scale_, left + scale_}, {0, 0, 0});
+      }
+    }
+  }
+
+  Image<std::uint8_t> image_;
+  int scale_;
+};
+
+/// From the largest to the smallest.
+std::vector<std::string> values_of(Interval range) {
+  std::vector<std::string> values;
+  for (int i = 0; i < kValues; ++i) {
+    const double value = range.max - range.length() * i / (kValues - 1);
+    values.push_back(fmt::format("{:.3g}", value));
+  }
+  return values;
+}
 
 // Colors 0xRRGGBB at equal steps from low to high; between them is interpolated linearly.
 // viridis and magma: S. van der Walt, N. Smith 2015 (CC0). turbo: A. Mikhailov 2019 (Apache 2.0),
@@ -93,36 +193,6 @@ Rgb interpolated(std::span<const std::uint32_t> colors, double position) {
   return color;
 }
 
-}  // namespace
-
-Rgb ColorMap::color(double value, double min, double max) const {
-  if (std::isnan(value)) return invalid;
-  const double position = max > min ? (value - min) / (max - min) : (value >= max ? 1 : 0);
-  const double last = static_cast<double>(colors.size() - 1);
-  return colors[static_cast<std::size_t>(std::lround(std::clamp(position, 0.0, 1.0) * last))];
-}
-
-std::vector<std::string> color_map_names() {
-  std::vector<std::string> names;
-  for (const auto& source : kSources) names.emplace_back(source.name);
-  return names;
-}
-
-ColorMap color_map(const std::string& name) {
-  for (const auto& source : kSources) {
-    if (name != source.name) continue;
-    ColorMap map{name, {}, unpacked(source.invalid)};
-    for (std::size_t i = 0; i < map.colors.size(); ++i) {
-      const double last = static_cast<double>(map.colors.size() - 1);
-      map.colors[i] = interpolated(source.colors, static_cast<double>(i) / last);
-    }
-    return map;
-  }
-  throw InvalidInput(no_such_name("color map", name, color_map_names()));
-}
-
-namespace {
-
 constexpr int kRgba = 4;
 constexpr std::uint8_t kOpaque = 255;
 
@@ -170,92 +240,7 @@ std::vector<float> valid_values(ImageView<const float> map, ImageView<const std:
   return values;
 }
 
-}  // namespace
-
-Shading default_shading(Quantity quantity, Interval disparity_range) {
-  const QuantityInfo& info = info_of(quantity);
-  const bool is_disparity = info.rule == RangeRule::Disparity;
-  return {color_map(info.color_map), is_disparity       ? disparity_range
-                                     : info.has_scale() ? info.range
-                                                        : Interval{0, 1}};
-}
-
-Image<std::uint8_t> shade(ImageView<const float> map, ImageView<const std::uint8_t> valid,
-                          const Shading& shading) {
-  Image<std::uint8_t> picture(map.height, map.width, kRgba);
-  const DisparityView pixels{map, valid};
-  for (int y = 0; y < map.height; ++y) {
-    std::uint8_t* target = picture.row(y);
-    for (int x = 0; x < map.width; ++x, target += kRgba) {
-      put(target, pixels.is_valid(y, x)
-                      ? shading.map.color(map.at(y, x), shading.range.min, shading.range.max)
-                      : shading.map.invalid);
-    }
-  }
-  return picture;
-}
-
-Image<std::uint8_t> shade_view(const LightField& light_field, ViewIndex view,
-                               const ToneTable* tone) {
-  return std::visit(
-      [&](const auto& stack) {
-        return tone ? opaque_picture(stack.view(view), *tone)
-                    : opaque_picture(stack.view(view), PlainTone());
-      },
-      light_field.samples());
-}
-
-namespace {
-
 constexpr int kDash = 4;  // px of a contour
-
-}  // namespace
-
-Image<std::uint8_t> shade_labels(ImageView<const std::int32_t> labels,
-                                 const std::vector<LabelInfo>& infos, const LabelStyle& style) {
-  Image<std::uint8_t> picture(labels.height, labels.width, kRgba);
-  std::map<std::int32_t, Rgb> colors;
-  for (const LabelInfo& info : infos) colors[info.id] = info.color;
-  std::int32_t last = 0;
-  bool is_hidden = false;
-  Rgb color{};
-  const bool has_contours = style.drawing != LabelDrawing::Fill;
-  for (int y = 0; y < labels.height; ++y) {
-    for (int x = 0; x < labels.width; ++x) {
-      const std::int32_t id = labels.at(y, x);
-      if (id <= 0) continue;
-      if (id != last) {
-        color = colors.try_emplace(id, label_color(id)).first->second;
-        is_hidden = style.hidden.contains(id);
-        last = id;
-      }
-      if (is_hidden) continue;
-      if (!has_contours) {
-        put(&picture.at(y, x), color);
-      } else if (is_on_contour(labels, y, x)) {
-        const bool is_gap = (x / kDash + y / kDash) % 2 != 0;
-        put(&picture.at(y, x), is_gap ? Rgb{} : color);
-      } else if (style.drawing == LabelDrawing::Both) {
-        put(&picture.at(y, x), color, kFaintLabel);
-      }
-    }
-  }
-  return picture;
-}
-
-Image<std::uint8_t> shade_samples(ImageView<const float> samples, const ToneTable* tone) {
-  return tone ? opaque_picture(samples, *tone) : opaque_picture(samples, PlainTone());
-}
-
-Interval robust_range(ImageView<const float> map, ImageView<const std::uint8_t> valid, double low,
-                      double high) {
-  std::vector<float> values = valid_values(map, valid);
-  if (values.empty()) return {0, 1};
-  const float min = quantile(values, low);
-  return {min, quantile(values, high)};
-}
-
-namespace {
 
 /// How one view is sampled: at (x + dx + fraction_x, y + dy + fraction_y).
 struct Shift {
@@ -410,7 +395,167 @@ int begin_of(int i, int from, int to) {
   return static_cast<int>(static_cast<long>(i) * from / to);
 }
 
+constexpr double kDarkest = 0.005;  // quantiles
+constexpr double kBrightest = 0.995;
+constexpr double kDark = 0.12;    // a median below it
+constexpr double kMiddle = 0.35;  // where the median of a dark view is lifted to
+
+// Samples of all channels that show something, in [0, 1].
+std::vector<float> shown_samples(const LightField& light_field, ViewIndex view) {
+  const int channels = light_field.channels();
+  const int width = light_field.width();
+  std::vector<float> row(static_cast<std::size_t>(width) * channels);
+  std::vector<float> samples;
+  samples.reserve(row.size() * light_field.height());
+  const auto valid = light_field.valid_of(view);
+  for (int y = 0; y < light_field.height(); ++y) {
+    light_field.read_row(view, y, 0, width, row.data());
+    for (int x = 0; x < width; ++x) {
+      if (!valid.empty() && valid.at(y, x) == 0) continue;
+      for (int c = 0; c < channels; ++c) {
+        const float sample = row[static_cast<std::size_t>(x) * channels + c];
+        if (std::isfinite(sample)) samples.push_back(std::clamp(sample, 0.0F, 1.0F));
+      }
+    }
+  }
+  return samples;
+}
+
 }  // namespace
+
+Image<std::uint8_t> with_legend(const Image<std::uint8_t>& picture, const Shading& shading,
+                                const std::string& unit) {
+  const int height = std::max(picture.height(), kLeastHeight);
+  const int scale = std::max(1, height / 400);
+  const int margin = 8 * scale, bar_width = 16 * scale, line = (kGlyphHeight + 3) * scale;
+  const std::vector<std::string> values = values_of(shading.range);
+  std::size_t longest = unit.size();
+  for (const std::string& value : values) longest = std::max(longest, value.size());
+  const int bar = picture.width() + margin;
+  const int text = bar + bar_width + margin / 2;
+  Canvas canvas(height, text + static_cast<int>(longest) * kGlyphStep * scale + margin / 2, scale);
+  canvas.place(picture);
+
+  const int top = line / 2, bottom = height - 3 * line;
+  for (int y = top; y < bottom; ++y) {
+    const double value =
+        shading.range.max - shading.range.length() * (y - top) / (bottom - 1 - top);
+    canvas.fill({y, bar, y + 1, bar + bar_width},
+                shading.map.color(value, shading.range.min, shading.range.max));
+  }
+  for (int i = 0; i < kValues; ++i) {
+    const int y = top + (bottom - 1 - top) * i / (kValues - 1);
+    canvas.write(values[static_cast<std::size_t>(i)], y - kGlyphHeight * scale / 2, text);
+  }
+  canvas.write(unit, bottom + line / 2, text);
+  const int swatch = height - line - scale;
+  canvas.fill({swatch, bar, swatch + kGlyphHeight * scale, bar + bar_width}, shading.map.invalid);
+  canvas.write("n/a", swatch, text);
+  return canvas.take();
+}
+
+Rgb ColorMap::color(double value, double min, double max) const {
+  if (std::isnan(value)) return invalid;
+  const double position = max > min ? (value - min) / (max - min) : (value >= max ? 1 : 0);
+  const double last = static_cast<double>(colors.size() - 1);
+  return colors[static_cast<std::size_t>(std::lround(std::clamp(position, 0.0, 1.0) * last))];
+}
+
+std::vector<std::string> color_map_names() {
+  std::vector<std::string> names;
+  for (const auto& source : kSources) names.emplace_back(source.name);
+  return names;
+}
+
+ColorMap color_map(const std::string& name) {
+  for (const auto& source : kSources) {
+    if (name != source.name) continue;
+    ColorMap map{name, {}, unpacked(source.invalid)};
+    for (std::size_t i = 0; i < map.colors.size(); ++i) {
+      const double last = static_cast<double>(map.colors.size() - 1);
+      map.colors[i] = interpolated(source.colors, static_cast<double>(i) / last);
+    }
+    return map;
+  }
+  throw InvalidInput(no_such_name("color map", name, color_map_names()));
+}
+
+Shading default_shading(Quantity quantity, Interval disparity_range) {
+  const QuantityInfo& info = info_of(quantity);
+  const bool is_disparity = info.rule == RangeRule::Disparity;
+  return {color_map(info.color_map), is_disparity       ? disparity_range
+                                     : info.has_scale() ? info.range
+                                                        : Interval{0, 1}};
+}
+
+Image<std::uint8_t> shade(ImageView<const float> map, ImageView<const std::uint8_t> valid,
+                          const Shading& shading) {
+  Image<std::uint8_t> picture(map.height, map.width, kRgba);
+  const DisparityView pixels{map, valid};
+  for (int y = 0; y < map.height; ++y) {
+    std::uint8_t* target = picture.row(y);
+    for (int x = 0; x < map.width; ++x, target += kRgba) {
+      put(target, pixels.is_valid(y, x)
+                      ? shading.map.color(map.at(y, x), shading.range.min, shading.range.max)
+                      : shading.map.invalid);
+    }
+  }
+  return picture;
+}
+
+Image<std::uint8_t> shade_view(const LightField& light_field, ViewIndex view,
+                               const ToneTable* tone) {
+  return std::visit(
+      [&](const auto& stack) {
+        return tone ? opaque_picture(stack.view(view), *tone)
+                    : opaque_picture(stack.view(view), PlainTone());
+      },
+      light_field.samples());
+}
+
+Image<std::uint8_t> shade_labels(ImageView<const std::int32_t> labels,
+                                 const std::vector<LabelInfo>& infos, const LabelStyle& style) {
+  Image<std::uint8_t> picture(labels.height, labels.width, kRgba);
+  std::map<std::int32_t, Rgb> colors;
+  for (const LabelInfo& info : infos) colors[info.id] = info.color;
+  std::int32_t last = 0;
+  bool is_hidden = false;
+  Rgb color{};
+  const bool has_contours = style.drawing != LabelDrawing::Fill;
+  for (int y = 0; y < labels.height; ++y) {
+    for (int x = 0; x < labels.width; ++x) {
+      const std::int32_t id = labels.at(y, x);
+      if (id <= 0) continue;
+      if (id != last) {
+        color = colors.try_emplace(id, label_color(id)).first->second;
+        is_hidden = style.hidden.contains(id);
+        last = id;
+      }
+      if (is_hidden) continue;
+      if (!has_contours) {
+        put(&picture.at(y, x), color);
+      } else if (is_on_contour(labels, y, x)) {
+        const bool is_gap = (x / kDash + y / kDash) % 2 != 0;
+        put(&picture.at(y, x), is_gap ? Rgb{} : color);
+      } else if (style.drawing == LabelDrawing::Both) {
+        put(&picture.at(y, x), color, kFaintLabel);
+      }
+    }
+  }
+  return picture;
+}
+
+Image<std::uint8_t> shade_samples(ImageView<const float> samples, const ToneTable* tone) {
+  return tone ? opaque_picture(samples, *tone) : opaque_picture(samples, PlainTone());
+}
+
+Interval robust_range(ImageView<const float> map, ImageView<const std::uint8_t> valid, double low,
+                      double high) {
+  std::vector<float> values = valid_values(map, valid);
+  if (values.empty()) return {0, 1};
+  const float min = quantile(values, low);
+  return {min, quantile(values, high)};
+}
 
 Image<float> refocus(const LightField& light_field, ViewIndex view, double focus_px) {
   if (!light_field.grid().contains(view)) {
@@ -442,36 +587,6 @@ Picture fitted(const Picture& picture, int longest_px) {
   }
   return small;
 }
-
-namespace {
-
-constexpr double kDarkest = 0.005;  // quantiles
-constexpr double kBrightest = 0.995;
-constexpr double kDark = 0.12;    // a median below it
-constexpr double kMiddle = 0.35;  // where the median of a dark view is lifted to
-
-// Samples of all channels that show something, in [0, 1].
-std::vector<float> shown_samples(const LightField& light_field, ViewIndex view) {
-  const int channels = light_field.channels();
-  const int width = light_field.width();
-  std::vector<float> row(static_cast<std::size_t>(width) * channels);
-  std::vector<float> samples;
-  samples.reserve(row.size() * light_field.height());
-  const auto valid = light_field.valid_of(view);
-  for (int y = 0; y < light_field.height(); ++y) {
-    light_field.read_row(view, y, 0, width, row.data());
-    for (int x = 0; x < width; ++x) {
-      if (!valid.empty() && valid.at(y, x) == 0) continue;
-      for (int c = 0; c < channels; ++c) {
-        const float sample = row[static_cast<std::size_t>(x) * channels + c];
-        if (std::isfinite(sample)) samples.push_back(std::clamp(sample, 0.0F, 1.0F));
-      }
-    }
-  }
-  return samples;
-}
-
-}  // namespace
 
 Tone automatic_tone(const LightField& light_field, ViewIndex view) {
   std::vector<float> samples = shown_samples(light_field, view);

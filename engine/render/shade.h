@@ -148,4 +148,11 @@ template <class Label>
 /// is `longest_px` (at least 1); as it is if it is no larger.
 [[nodiscard]] Image<std::uint8_t> fitted(const Image<std::uint8_t>& picture, int longest_px);
 
+/// An RGBA8 picture, on white, with the scale of its colors to its right: a bar from the largest
+/// value on top to the smallest, five values at equal distances, the unit below them, and the color
+/// of pixels without a value, marked n/a. Text grows with the picture; small pictures get room for
+/// the bar. `unit`: "px", or empty.
+[[nodiscard]] Image<std::uint8_t> with_legend(const Image<std::uint8_t>& picture,
+                                              const Shading& shading, const std::string& unit);
+
 }  // namespace episcope::render

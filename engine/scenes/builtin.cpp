@@ -95,86 +95,6 @@ void require_builtin(const std::string& id) {
                     ")");
 }
 
-}  // namespace
-
-std::span<const Recipe> recipes() {
-  static constexpr Recipe all[] = {
-      {"demo", "a still life: vase with flowers, balls, box, cone and can on a table", demo_scene,
-       true},
-      {"fronto", "one plane of disparity 0.37 px", fronto_scene, false},
-      {"slant", "a plane slanted from -1 px to 1 px", slant_scene, false},
-      {"edge", "two planes, -0.5 px and 0.8 px, with a straight vertical edge", edge_scene, false},
-      {"bars", "thin bars of 1, 2, 3 and 5 px in front of a plane", bars_scene, false},
-      {"objects", "a sphere and a box on the ground, with labels and scribbles", objects_scene,
-       true},
-      {"transparent",
-       "a semi-transparent pane in front of a plane, with ground truth for both layers",
-       transparent_scene, false},
-  };
-  return all;
-}
-
-std::vector<BuiltinSceneInfo> builtin_scenes() {
-  std::vector<BuiltinSceneInfo> scenes;
-  for (const Recipe& recipe : recipes()) scenes.push_back({recipe.id, recipe.summary});
-  for (const StratifiedRecipe& recipe : stratified_recipes()) {
-    scenes.push_back({recipe.id, recipe.summary});
-  }
-  scenes.push_back({kRandomScene, "3 to 40 objects drawn from a seed: random?seed=7&kind=thin"});
-  return scenes;
-}
-
-bool is_drawn(const std::string& id) {
-  return id == kRandomScene || find_stratified(id) != nullptr;
-}
-
-std::string builtin_name(const std::string& id, const RenderOptions& options) {
-  if (!is_drawn(id)) return id;
-  if (options.kind == RandomKind::Any) return fmt::format("{}_{}", id, options.seed);
-  return fmt::format("{}_{}_{}", id, name_of(options.kind), options.seed);
-}
-
-std::string builtin_text(const std::string& id, const RenderOptions& options) {
-  if (!is_drawn(id)) return id;
-  const std::string text = fmt::format("{}?seed={}", id, options.seed);
-  return options.kind == RandomKind::Any ? text : text + "&kind=" + name_of(options.kind);
-}
-
-Scene render_builtin(const std::string& id, const RenderOptions& options,
-                     const Progress& progress) {
-  require_builtin(id);
-  check(options);
-  const Laid laid = lay_out(id, options);
-  progress.step("rendering the scene " + id);
-  Cast cast = cast_views(laid.stage, laid.model, options, progress);
-
-  LightFieldInfo info;
-  info.name = builtin_name(id, options);
-  info.source = id == "demo" ? "demo" : "demo:" + builtin_text(id, options);
-  info.reading.reader = kBuiltinReader;
-  info.positions = options.positions;
-  info.camera = camera_grid_of(laid.stage, options.disparity_scale);
-  Scene scene;
-  scene.light_field = std::make_shared<const LightField>(std::move(cast.samples), std::move(info));
-  if (laid.has_scribbles) {
-    const ViewIndex center = options.grid.center();
-    scene.scribbles.views.push_back({center, scribble(cast.truth.labels.view(center))});
-  }
-  if (laid.stratified) {
-    add_regions(*laid.stratified, laid.stage, options.grid.center(), cast.truth);
-  }
-  scene.truth = std::make_shared<const GroundTruth>(std::move(cast.truth));
-  scene.convention.format = "built-in scene";
-  scene.convention.order = "canonical order";
-  scene.convention.order_check = "exact by construction";
-  scene.convention.sign = "checked";
-  scene.convention.sign_check = "exact by construction";
-  scene.convention.units = "exact disparity by eq. 1";
-  return scene;
-}
-
-namespace {
-
 constexpr const char* kKeys =
     "seed=N, kind=NAME, size=256 or 320x240, grid=9x9, noise=SIGMA, channels=3 or 1";
 
@@ -235,30 +155,6 @@ void read_option(const std::string& text, const std::string& option, BuiltinRequ
     refuse(text, fmt::format("'{}' is no {}; write {}", value, key, kKeys));
   }
 }
-
-}  // namespace
-
-void read_options(const std::string& text, BuiltinRequest& request) {
-  const auto question = text.find('?');
-  if (question == text.npos) return;
-  std::string rest = text.substr(question + 1);
-  while (true) {
-    const auto end = rest.find('&');
-    read_option(text, rest.substr(0, end), request);
-    if (end == rest.npos) return;
-    rest.erase(0, end + 1);
-  }
-}
-
-BuiltinRequest read_request(const std::string& text) {
-  BuiltinRequest request;
-  request.scene = text.substr(0, text.find('?'));
-  require_builtin(request.scene);
-  read_options(text, request);
-  return request;
-}
-
-namespace {
 
 struct View {
   ViewCamera camera;
@@ -477,6 +373,102 @@ class ViewsCast {
 };
 
 }  // namespace
+
+std::span<const Recipe> recipes() {
+  static constexpr Recipe all[] = {
+      {"demo", "a still life: vase with flowers, balls, box, cone and can on a table", demo_scene,
+       true},
+      {"fronto", "one plane of disparity 0.37 px", fronto_scene, false},
+      {"slant", "a plane slanted from -1 px to 1 px", slant_scene, false},
+      {"edge", "two planes, -0.5 px and 0.8 px, with a straight vertical edge", edge_scene, false},
+      {"bars", "thin bars of 1, 2, 3 and 5 px in front of a plane", bars_scene, false},
+      {"objects", "a sphere and a box on the ground, with labels and scribbles", objects_scene,
+       true},
+      {"transparent",
+       "a semi-transparent pane in front of a plane, with ground truth for both layers",
+       transparent_scene, false},
+  };
+  return all;
+}
+
+std::vector<BuiltinSceneInfo> builtin_scenes() {
+  std::vector<BuiltinSceneInfo> scenes;
+  for (const Recipe& recipe : recipes()) scenes.push_back({recipe.id, recipe.summary});
+  for (const StratifiedRecipe& recipe : stratified_recipes()) {
+    scenes.push_back({recipe.id, recipe.summary});
+  }
+  scenes.push_back({kRandomScene, "3 to 40 objects drawn from a seed: random?seed=7&kind=thin"});
+  return scenes;
+}
+
+bool is_drawn(const std::string& id) {
+  return id == kRandomScene || find_stratified(id) != nullptr;
+}
+
+std::string builtin_name(const std::string& id, const RenderOptions& options) {
+  if (!is_drawn(id)) return id;
+  if (options.kind == RandomKind::Any) return fmt::format("{}_{}", id, options.seed);
+  return fmt::format("{}_{}_{}", id, name_of(options.kind), options.seed);
+}
+
+std::string builtin_text(const std::string& id, const RenderOptions& options) {
+  if (!is_drawn(id)) return id;
+  const std::string text = fmt::format("{}?seed={}", id, options.seed);
+  return options.kind == RandomKind::Any ? text : text + "&kind=" + name_of(options.kind);
+}
+
+Scene render_builtin(const std::string& id, const RenderOptions& options,
+                     const Progress& progress) {
+  require_builtin(id);
+  check(options);
+  const Laid laid = lay_out(id, options);
+  progress.step("rendering the scene " + id);
+  Cast cast = cast_views(laid.stage, laid.model, options, progress);
+
+  LightFieldInfo info;
+  info.name = builtin_name(id, options);
+  info.source = id == "demo" ? "demo" : "demo:" + builtin_text(id, options);
+  info.reading.reader = kBuiltinReader;
+  info.positions = options.positions;
+  info.camera = camera_grid_of(laid.stage, options.disparity_scale);
+  Scene scene;
+  scene.light_field = std::make_shared<const LightField>(std::move(cast.samples), std::move(info));
+  if (laid.has_scribbles) {
+    const ViewIndex center = options.grid.center();
+    scene.scribbles.views.push_back({center, scribble(cast.truth.labels.view(center))});
+  }
+  if (laid.stratified) {
+    add_regions(*laid.stratified, laid.stage, options.grid.center(), cast.truth);
+  }
+  scene.truth = std::make_shared<const GroundTruth>(std::move(cast.truth));
+  scene.convention.format = "built-in scene";
+  scene.convention.order = "canonical order";
+  scene.convention.order_check = "exact by construction";
+  scene.convention.sign = "checked";
+  scene.convention.sign_check = "exact by construction";
+  scene.convention.units = "exact disparity by eq. 1";
+  return scene;
+}
+
+void read_options(const std::string& text, BuiltinRequest& request) {
+  const auto question = text.find('?');
+  if (question == text.npos) return;
+  std::string rest = text.substr(question + 1);
+  while (true) {
+    const auto end = rest.find('&');
+    read_option(text, rest.substr(0, end), request);
+    if (end == rest.npos) return;
+    rest.erase(0, end + 1);
+  }
+}
+
+BuiltinRequest read_request(const std::string& text) {
+  BuiltinRequest request;
+  request.scene = text.substr(0, text.find('?'));
+  require_builtin(request.scene);
+  read_options(text, request);
+  return request;
+}
 
 Cast cast_views(const Stage& stage, const Model& model, const RenderOptions& options,
                 const Progress& progress) {

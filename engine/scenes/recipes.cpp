@@ -181,103 +181,6 @@ Model single_plane(const Stage& stage, const DisparityPlane& plane, double neare
   return model;
 }
 
-}  // namespace
-
-Model fronto_scene(const Stage& stage) {
-  constexpr double disparity = 0.37;
-  return single_plane(stage, {disparity, 0, 0}, disparity);
-}
-
-Model slant_scene(const Stage& stage) {
-  // The far side has the largest pixels: its texture must still be resolved.
-  return single_plane(stage, {0, 2.0 / std::max(stage.width - 1, 1), 0}, -1);
-}
-
-Model edge_scene(const Stage& stage) {
-  constexpr double far_disparity = -0.5;
-  constexpr double near_disparity = 0.8;
-  Model model;
-  add_noisy(model, stage, make_plane(stage, {far_disparity, 0, 0}), far_disparity, 2,
-            {0.42F, 0.50F, 0.58F}, kContrast);
-  // Its left side lies between two pixels of the center view.
-  const double left = stage.width / 2 - 0.5;
-  const Primitive card = make_card(stage, {left, -kFar, left + 2 * kFar, kFar, near_disparity});
-  add_noisy(model, stage, card, near_disparity, 3, {0.60F, 0.50F, 0.40F}, kContrast).label = 2;
-  return model;
-}
-
-Model bars_scene(const Stage& stage) {
-  constexpr double far_disparity = -0.4;
-  constexpr double near_disparity = 0.7;
-  constexpr int widths[] = {1, 2, 3, 5};
-  Model model;
-  add_noisy(model, stage, make_plane(stage, {far_disparity, 0, 0}), far_disparity, 4,
-            {0.38F, 0.46F, 0.52F}, kContrast);
-  const int texture = model.add(
-      noise_texture(stage.pixel(stage.depth(near_disparity)), 5, {0.72F, 0.60F, 0.34F}, 0.4F));
-  const auto add_bar = [&](const Card& card) {
-    model.primitives.push_back(make_card(stage, card));
-    model.primitives.back().label = 2;
-    model.primitives.back().texture = texture;
-  };
-  // Upright bars in the upper half, lying ones in the lower half, each on whole pixels.
-  const double upper = stage.height * 9 / 20 - 0.5;
-  const double lower = stage.height * 11 / 20 - 0.5;
-  for (int i = 0; i < 8; ++i) {
-    const double x = stage.width * (2 * i + 1) / 16 - 0.5;
-    add_bar({x, stage.height / 20 - 0.5, x + widths[i % 4], upper, near_disparity});
-  }
-  for (int i = 0; i < 4; ++i) {
-    const double y = lower + stage.height * (2 * i + 1) / 20;
-    add_bar(
-        {stage.width / 20 - 0.5, y, stage.width * 19 / 20 - 0.5, y + widths[i], near_disparity});
-  }
-  return model;
-}
-
-Model transparent_scene(const Stage& stage) {
-  constexpr double far_disparity = -0.5;
-  constexpr double near_disparity = 0.5;
-  Model model;
-  add_noisy(model, stage, make_plane(stage, {far_disparity, 0, 0}), far_disparity, 6,
-            {0.45F, 0.55F, 0.45F}, 0.7F);
-  const double w = stage.width, h = stage.height;
-  Primitive pane = make_card(
-      stage, {w / 8 - 0.5, h / 8 - 0.5, w * 7 / 8 - 0.5, h * 7 / 8 - 0.5, near_disparity});
-  pane.label = 2;
-  pane.is_pane = true;
-  add_noisy(model, stage, pane, near_disparity, 7, {0.60F, 0.50F, 0.45F}, 0.7F);
-  return model;
-}
-
-Model objects_scene(const Stage& stage) {
-  enum Label { kGround = 1, kSphere, kBox };
-  // Steep enough for the ground to fill the image.
-  StillLife scene(stage, {0.6, 0.8}, 1.2);
-
-  Texture ground = scene.noise_at({0, 0, 0}, 11, {0.56F, 0.50F, 0.42F}, 0.5F);
-  ground.is_solid = false;
-  ground.stretch[0] = 1.4;
-  ground.stretch[1] = 1.8;  // It is seen at a slant.
-  scene.table(ground, kGround);
-
-  const Place ball{-1.1, 1.0, 2.0};
-  scene.sphere(ball, 1.0, scene.noise_at(ball, 12, {0.70F, 0.38F, 0.28F}, 0.5F), kSphere);
-
-  const Place box{1.15, 0, 3.1, {0.8, 0.6}};
-  scene.box(box, {0.8, 0.75, 0.8}, scene.noise_at(box, 13, {0.36F, 0.52F, 0.68F}, 0.5F), kBox);
-  scene.occluder({box.x, 0.75, box.z}, 0.95, kBox);
-
-  Lighting lighting;
-  lighting.sky[0] = lighting.sky[1] = lighting.sky[2] = 0.65F;
-  lighting.ground[0] = lighting.ground[1] = lighting.ground[2] = 0.3F;
-  lighting.key[0] = lighting.key[1] = lighting.key[2] = 0.6F;
-  scene.light(lighting, {-0.5, 1, -0.45});
-  return scene.model();
-}
-
-namespace {
-
 enum Label {
   kTable = 1,
   kWall,
@@ -461,6 +364,99 @@ void stroke(const Run& run, int thickness, const Paint& paint) {
 }
 
 }  // namespace
+
+Model fronto_scene(const Stage& stage) {
+  constexpr double disparity = 0.37;
+  return single_plane(stage, {disparity, 0, 0}, disparity);
+}
+
+Model slant_scene(const Stage& stage) {
+  // The far side has the largest pixels: its texture must still be resolved.
+  return single_plane(stage, {0, 2.0 / std::max(stage.width - 1, 1), 0}, -1);
+}
+
+Model edge_scene(const Stage& stage) {
+  constexpr double far_disparity = -0.5;
+  constexpr double near_disparity = 0.8;
+  Model model;
+  add_noisy(model, stage, make_plane(stage, {far_disparity, 0, 0}), far_disparity, 2,
+            {0.42F, 0.50F, 0.58F}, kContrast);
+  // Its left side lies between two pixels of the center view.
+  const double left = stage.width / 2 - 0.5;
+  const Primitive card = make_card(stage, {left, -kFar, left + 2 * kFar, kFar, near_disparity});
+  add_noisy(model, stage, card, near_disparity, 3, {0.60F, 0.50F, 0.40F}, kContrast).label = 2;
+  return model;
+}
+
+Model bars_scene(const Stage& stage) {
+  constexpr double far_disparity = -0.4;
+  constexpr double near_disparity = 0.7;
+  constexpr int widths[] = {1, 2, 3, 5};
+  Model model;
+  add_noisy(model, stage, make_plane(stage, {far_disparity, 0, 0}), far_disparity, 4,
+            {0.38F, 0.46F, 0.52F}, kContrast);
+  const int texture = model.add(
+      noise_texture(stage.pixel(stage.depth(near_disparity)), 5, {0.72F, 0.60F, 0.34F}, 0.4F));
+  const auto add_bar = [&](const Card& card) {
+    model.primitives.push_back(make_card(stage, card));
+    model.primitives.back().label = 2;
+    model.primitives.back().texture = texture;
+  };
+  // Upright bars in the upper half, lying ones in the lower half, each on whole pixels.
+  const double upper = stage.height * 9 / 20 - 0.5;
+  const double lower = stage.height * 11 / 20 - 0.5;
+  for (int i = 0; i < 8; ++i) {
+    const double x = stage.width * (2 * i + 1) / 16 - 0.5;
+    add_bar({x, stage.height / 20 - 0.5, x + widths[i % 4], upper, near_disparity});
+  }
+  for (int i = 0; i < 4; ++i) {
+    const double y = lower + stage.height * (2 * i + 1) / 20;
+    add_bar(
+        {stage.width / 20 - 0.5, y, stage.width * 19 / 20 - 0.5, y + widths[i], near_disparity});
+  }
+  return model;
+}
+
+Model transparent_scene(const Stage& stage) {
+  constexpr double far_disparity = -0.5;
+  constexpr double near_disparity = 0.5;
+  Model model;
+  add_noisy(model, stage, make_plane(stage, {far_disparity, 0, 0}), far_disparity, 6,
+            {0.45F, 0.55F, 0.45F}, 0.7F);
+  const double w = stage.width, h = stage.height;
+  Primitive pane = make_card(
+      stage, {w / 8 - 0.5, h / 8 - 0.5, w * 7 / 8 - 0.5, h * 7 / 8 - 0.5, near_disparity});
+  pane.label = 2;
+  pane.is_pane = true;
+  add_noisy(model, stage, pane, near_disparity, 7, {0.60F, 0.50F, 0.45F}, 0.7F);
+  return model;
+}
+
+Model objects_scene(const Stage& stage) {
+  enum Label { kGround = 1, kSphere, kBox };
+  // Steep enough for the ground to fill the image.
+  StillLife scene(stage, {0.6, 0.8}, 1.2);
+
+  Texture ground = scene.noise_at({0, 0, 0}, 11, {0.56F, 0.50F, 0.42F}, 0.5F);
+  ground.is_solid = false;
+  ground.stretch[0] = 1.4;
+  ground.stretch[1] = 1.8;  // It is seen at a slant.
+  scene.table(ground, kGround);
+
+  const Place ball{-1.1, 1.0, 2.0};
+  scene.sphere(ball, 1.0, scene.noise_at(ball, 12, {0.70F, 0.38F, 0.28F}, 0.5F), kSphere);
+
+  const Place box{1.15, 0, 3.1, {0.8, 0.6}};
+  scene.box(box, {0.8, 0.75, 0.8}, scene.noise_at(box, 13, {0.36F, 0.52F, 0.68F}, 0.5F), kBox);
+  scene.occluder({box.x, 0.75, box.z}, 0.95, kBox);
+
+  Lighting lighting;
+  lighting.sky[0] = lighting.sky[1] = lighting.sky[2] = 0.65F;
+  lighting.ground[0] = lighting.ground[1] = lighting.ground[2] = 0.3F;
+  lighting.key[0] = lighting.key[1] = lighting.key[2] = 0.6F;
+  scene.light(lighting, {-0.5, 1, -0.45});
+  return scene.model();
+}
 
 Model demo_scene(const Stage& stage) {
   StillLife scene(stage, kPitch, kFrontDisparity);

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/solvers/layered_sweep.h"
 
+#include "engine/core/error.h"
 #include "engine/core/parallel.h"
+#include "engine/solvers/shared_constants.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -14,7 +19,131 @@ namespace {
 // More threads than this, or than iterations, are better employed on bands of rows.
 constexpr int kMostStaggered = 3;
 
+void halve_rows(const float* upper, const float* lower, int width, float* out) {
+  for (int x = 0; x + 1 < width; x += 2) {
+    out[x / 2] = 0.25F * (upper[x] + upper[x + 1] + lower[x] + lower[x + 1]);
+  }
+  if (width % 2 == 1) out[width / 2] = 0.5F * (upper[width - 1] + lower[width - 1]);
+}
+
+// Twice the mean of `near` and `other`, rows of the coarse duals of one layer, at every fine pixel.
+// Pairs that lead to the right end within a coarse pixel at even x: there the flow is between that
+// which enters it and that which leaves.
+void spread_row(const float* near, const float* other, int width, bool rightwards, float* out) {
+  for (int x = 0; x < width; ++x) {
+    const int at = x / 2;
+    const bool inside = rightwards && x % 2 == 0;
+    const float left = !inside ? near[at] + other[at] : at > 0 ? near[at - 1] + other[at - 1] : 0;
+    out[x] = 0.5F * (near[at] + other[at] + left);
+  }
+}
+
+void begin_row(LayeredSweep& coarse, const PairDuals& near, const PairDuals& above, int y,
+               const PairDuals& duals, LayeredSweep& fine) {
+  const LayeredShape& shape = fine.shape();
+  const long pitch = coarse.shape().pitch;
+  const float* const from = coarse.phi(y / 2);
+  for (int layer = 0; layer < shape.steps; ++layer) {
+    float* const to = fine.phi(y) + layer * shape.pitch;
+    for (int x = 0; x < shape.width; ++x) to[x] = from[layer * pitch + x / 2];
+    for (int k = 0; k < kPairKinds; ++k) {
+      // Likewise for pairs that lead down, at even y.
+      const bool inside = k == 1 && y % 2 == 0;
+      spread_row(near.pair[k] + layer * pitch, (inside ? above : near).pair[k] + layer * pitch,
+                 shape.width, k == 0, duals.pair[k] + layer * shape.pitch);
+    }
+  }
+}
+
+// Where in phi() of row 0 each pixel of a row begins, and in its duals, layer 0 of pair 0.
+struct Places {
+  explicit Places(int width) : phi(width), duals(width) {}
+  std::vector<long> phi, duals;
+};
+
+void find_places(const LayeredSweep& from, ImageView<const std::int32_t> places, int y,
+                 Places& found) {
+  const int width = places.width;
+  for (int x = 0; x < width; ++x) {
+    const std::int32_t named = places.at(y, x);
+    const std::int32_t at = named < 0 ? y * width + x : named;
+    found.phi[x] = at / width * from.row_size() + at % width;
+    found.duals[x] = long{at / width} * kPairKinds * from.row_size() + at % width;
+  }
+}
+
+// The layers that are listed, in columns from `begin` on, of the layers of a row.
+void gather(const float* from, const std::vector<long>& places, const LayerList& listed, int begin,
+            long pitch, float* to) {
+  const int end = std::min(begin + kLayerColumns, static_cast<int>(places.size()));
+  for (int k = 0; k < listed.count; ++k) {
+    const long layer = listed.layers[k] * pitch;
+    for (int x = begin; x < end; ++x) to[layer + x] = from[layer + places[x]];
+  }
+}
+
+bool is_any_near(const float* cost, const float* least, int count, float behind) {
+  int near = 0;
+  for (int x = 0; x < count; ++x) near |= cost[x] - least[x] < behind ? 1 : 0;
+  return near != 0;
+}
+
+LayerList as_list(const std::vector<std::uint16_t>& layers) {
+  return {layers.data(), static_cast<int>(layers.size())};
+}
+
 }  // namespace
+
+PairLimits::PairLimits(int height, int width, double weight, ImageView<const float> g)
+    : pitch_(layer_pitch(width)),
+      memory_(static_cast<std::size_t>(height) * kPairKinds * pitch_ + 2 * kLayerRowUnit) {
+  for (int y = 0; y < height; ++y) {
+    const bool down = y + 1 < height;
+    // The share of diagonals missing above the first row and below the last one.
+    const float along =
+        kPairSide + kPairDiagonal * static_cast<float>((y == 0 ? 1 : 0) + (down ? 0 : 1));
+    for (int x = 0; x < width; ++x) {
+      const bool right = x + 1 < width;
+      const float aside =
+          kPairSide + kPairDiagonal * static_cast<float>((x == 0 ? 1 : 0) + (right ? 0 : 1));
+      const float here = static_cast<float>(weight) * (g.empty() ? 1.0F : g.at(y, x));
+      const float diagonal = right && down ? here * kPairDiagonal : 0;
+      memory_[begin_of(y, 0) + x] = right ? here * along : 0;
+      memory_[begin_of(y, 1) + x] = down ? here * aside : 0;
+      memory_[begin_of(y, 2) + x] = diagonal;
+      memory_[begin_of(y, 3) + x] = diagonal;
+    }
+  }
+}
+
+void take_cheapest(VolumeView<const float> cost, int y, int* labels, std::vector<float>& least) {
+  least.assign(cost.row(y, 0), cost.row(y, 0) + cost.width);
+  std::fill_n(labels, cost.width, 0);
+  for (int l = 1; l < cost.layers; ++l) {
+    const float* const row = cost.row(y, l);
+    for (int x = 0; x < cost.width; ++x) {
+      labels[x] = row[x] < least[x] ? l : labels[x];
+      least[x] = std::min(least[x], row[x]);
+    }
+  }
+}
+
+void check_boundaries(ImageView<const float> g, double smoothness, int height, int width) {
+  if (!g.empty() && (g.height != height || g.width != width || g.channels != 1)) {
+    throw InvalidInput(fmt::format("a labeling needs edge weights of {} by {} pixels, not {} by {}",
+                                   width, height, g.width, g.height));
+  }
+  if (!(smoothness >= 0)) throw InvalidInput("the smoothness of a labeling must not be negative");
+}
+
+double labeling_gap(double energy, double bound) {
+  if (energy == bound) return 0;
+  return energy == 0 ? 1 : (energy - bound) / std::abs(energy);
+}
+
+std::string labeling_gap_text(double gap) {
+  return fmt::format("labeling, gap {:.1e}", gap);
+}
 
 LayeredSweep::LayeredSweep(int height, int layers, int width) : height_(height) {
   shape_.steps = layers;
@@ -198,73 +327,6 @@ void LayeredSweep::iterate_part(const Terms& terms, const Part& part, const Prog
   }
 }
 
-namespace {
-
-void halve_rows(const float* upper, const float* lower, int width, float* out) {
-  for (int x = 0; x + 1 < width; x += 2) {
-    out[x / 2] = 0.25F * (upper[x] + upper[x + 1] + lower[x] + lower[x + 1]);
-  }
-  if (width % 2 == 1) out[width / 2] = 0.5F * (upper[width - 1] + lower[width - 1]);
-}
-
-// Twice the mean of `near` and `other`, rows of the coarse duals of one layer, at every fine pixel.
-// Pairs that lead to the right end within a coarse pixel at even x: there the flow is between that
-// which enters it and that which leaves.
-void spread_row(const float* near, const float* other, int width, bool rightwards, float* out) {
-  for (int x = 0; x < width; ++x) {
-    const int at = x / 2;
-    const bool inside = rightwards && x % 2 == 0;
-    const float left = !inside ? near[at] + other[at] : at > 0 ? near[at - 1] + other[at - 1] : 0;
-    out[x] = 0.5F * (near[at] + other[at] + left);
-  }
-}
-
-void begin_row(LayeredSweep& coarse, const PairDuals& near, const PairDuals& above, int y,
-               const PairDuals& duals, LayeredSweep& fine) {
-  const LayeredShape& shape = fine.shape();
-  const long pitch = coarse.shape().pitch;
-  const float* const from = coarse.phi(y / 2);
-  for (int layer = 0; layer < shape.steps; ++layer) {
-    float* const to = fine.phi(y) + layer * shape.pitch;
-    for (int x = 0; x < shape.width; ++x) to[x] = from[layer * pitch + x / 2];
-    for (int k = 0; k < kPairKinds; ++k) {
-      // Likewise for pairs that lead down, at even y.
-      const bool inside = k == 1 && y % 2 == 0;
-      spread_row(near.pair[k] + layer * pitch, (inside ? above : near).pair[k] + layer * pitch,
-                 shape.width, k == 0, duals.pair[k] + layer * shape.pitch);
-    }
-  }
-}
-
-// Where in phi() of row 0 each pixel of a row begins, and in its duals, layer 0 of pair 0.
-struct Places {
-  explicit Places(int width) : phi(width), duals(width) {}
-  std::vector<long> phi, duals;
-};
-
-void find_places(const LayeredSweep& from, ImageView<const std::int32_t> places, int y,
-                 Places& found) {
-  const int width = places.width;
-  for (int x = 0; x < width; ++x) {
-    const std::int32_t named = places.at(y, x);
-    const std::int32_t at = named < 0 ? y * width + x : named;
-    found.phi[x] = at / width * from.row_size() + at % width;
-    found.duals[x] = long{at / width} * kPairKinds * from.row_size() + at % width;
-  }
-}
-
-// The layers that are listed, in columns from `begin` on, of the layers of a row.
-void gather(const float* from, const std::vector<long>& places, const LayerList& listed, int begin,
-            long pitch, float* to) {
-  const int end = std::min(begin + kLayerColumns, static_cast<int>(places.size()));
-  for (int k = 0; k < listed.count; ++k) {
-    const long layer = listed.layers[k] * pitch;
-    for (int x = begin; x < end; ++x) to[layer + x] = from[layer + places[x]];
-  }
-}
-
-}  // namespace
-
 void halve(VolumeView<const float> from, const Progress& progress, VolumeView<float> to) {
   parallel_for(to.height, progress, [&](int y) {
     for (int layer = 0; layer < to.layers; ++layer) {
@@ -319,20 +381,6 @@ void begin_from_moved(LayeredSweep& from, ImageView<const std::int32_t> places,
     }
   });
 }
-
-namespace {
-
-bool is_any_near(const float* cost, const float* least, int count, float behind) {
-  int near = 0;
-  for (int x = 0; x < count; ++x) near |= cost[x] - least[x] < behind ? 1 : 0;
-  return near != 0;
-}
-
-LayerList as_list(const std::vector<std::uint16_t>& layers) {
-  return {layers.data(), static_cast<int>(layers.size())};
-}
-
-}  // namespace
 
 RacingLayers::RacingLayers(int height, int layers, int width)
     : height_(height),

@@ -6,8 +6,6 @@
 #include "engine/core/parallel.h"
 #include "engine/solvers/layered_kernel.h"
 #include "engine/solvers/layered_sweep.h"
-#include "engine/solvers/linked_kernel.h"
-#include "engine/solvers/pair_limits.h"
 #include "engine/solvers/simplex_labeling.h"
 
 #include <algorithm>

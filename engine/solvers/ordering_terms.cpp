@@ -50,8 +50,8 @@ void for_each_line(const ImageView<const float>& slopes, const ImageView<const f
   for_each_line_along<false>(slopes, to, line.step, visit);
 }
 
-// Slope and curvature of the penalty where they are needed together: at most one division each
-// time.
+// Slope ψ' of the penalty, and c such that ψ(a + δ) ≤ ψ(a) + ψ'(a)·δ + ½·c·δ² for every δ: at most
+// one division each time.
 struct Bend {
   float rise, fall, softness, stiffness;
 
@@ -69,20 +69,6 @@ struct Bend {
 
 }  // namespace
 
-float OrderingPenalty::slope(float a) const {
-  return std::clamp(a * fall / softness, -fall, rise);
-}
-
-float OrderingPenalty::value(float a) const {
-  const float stiffness = fall / softness;
-  const float bent = slope(a);
-  return bent * a - 0.5F * bent * bent / stiffness;
-}
-
-float OrderingPenalty::curvature(float a) const {
-  return fall / std::max(std::fabs(a), softness);
-}
-
 void line_differences(ImageView<const float> slopes, ImageView<const float> from,
                       ImageView<const float> to, LineStep step, ImageView<float> out) {
   for (int y = 0; y < out.height; ++y) {
@@ -91,25 +77,6 @@ void line_differences(ImageView<const float> slopes, ImageView<const float> from
   for_each_line(slopes, to, step, [&](PixelIndex p, const Taps& taps) {
     out.at(p.y, p.x) = sample(to, taps) - from.at(p.y, p.x);
   });
-}
-
-void add_line_adjoint(ImageView<const float> slopes, ImageView<const float> q, LineStep step,
-                      ImageView<float> from, ImageView<float> to) {
-  for_each_line(slopes, to, step, [&](PixelIndex p, const Taps& taps) {
-    const float value = q.at(p.y, p.x);
-    from.at(p.y, p.x) -= value;
-    to.data[taps.first] += (1 - taps.weight) * value;
-    to.data[taps.second] += taps.weight * value;
-  });
-}
-
-double ordering_energy(ImageView<const float> slopes, ImageView<const float> from,
-                       ImageView<const float> to, LineStep step, const OrderingPenalty& penalty) {
-  double sum = 0;
-  for_each_line(slopes, to, step, [&](PixelIndex p, const Taps& taps) {
-    sum += static_cast<double>(penalty.value(sample(to, taps) - from.at(p.y, p.x)));
-  });
-  return sum;
 }
 
 void add_pull_on_from(ImageView<const float> slopes, ImageView<const float> from,

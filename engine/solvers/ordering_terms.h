@@ -18,25 +18,12 @@ struct OrderingPenalty {
   float rise = 0.01F;
   float fall = 0.1F;
   float softness = 0.05F;
-  [[nodiscard]] float value(float a) const;
-  [[nodiscard]] float slope(float a) const;
-  /// c such that ψ(a + δ) ≤ ψ(a) + ψ'(a)·δ + ½·c·δ² for every δ.
-  [[nodiscard]] float curvature(float a) const;
 };
 
 /// D: out = to(x + step·slope(x)) − from(x), linear between pixels; NaN where the line leaves the
 /// image. All images have one channel and one size. `slopes` must be finite.
 void line_differences(ImageView<const float> slopes, ImageView<const float> from,
                       ImageView<const float> to, LineStep step, ImageView<float> out);
-
-/// Adds Dᵀ q to `from` and `to`. Where a line leaves the image, q is ignored.
-void add_line_adjoint(ImageView<const float> slopes, ImageView<const float> q, LineStep step,
-                      ImageView<float> from, ImageView<float> to);
-
-/// Σ ψ(Du) over all lines that stay within the image.
-[[nodiscard]] double ordering_energy(ImageView<const float> slopes, ImageView<const float> from,
-                                     ImageView<const float> to, LineStep step,
-                                     const OrderingPenalty& penalty);
 
 /// The quadratic majorizer of Σ ψ(Du) in one image while the others stay fixed: at most const −
 /// force·δ + ½ curvature·δ² for a change δ, pixel by pixel, with equality at δ = 0.

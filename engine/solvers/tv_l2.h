@@ -125,8 +125,7 @@ struct TgvL2Problem {
 
 struct TgvL2Result {
   int iterations = 0;
-  double start_energy = 0;  ///< P of the observation itself, with p = 0.
-  double energy = 0;        ///< Of the result, with its p.
+  double energy = 0;  ///< Of the result, with its p.
 };
 
 /// Minimizes TgvL2Problem by `iterations` primal-dual steps [CP11] from u = f, p = 0, rows in

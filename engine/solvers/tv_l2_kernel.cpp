@@ -315,12 +315,6 @@ void solve(const TvL2Level& level) {
   }
 }
 
-}  // namespace
-
-const TvL2Kernel kTvL2Kernel = {iterate, descend, ascend, solve};
-
-namespace {
-
 // Calls visit(offset, vector of u there, and to the right) for every vector of row y.
 template <class Visit>
 inline void for_each_vector(const TvL2Level& level, int y, const Visit& visit) {
@@ -500,6 +494,8 @@ TvL2Sums measure(const TvL2Level& level, float* row) {
 }
 
 }  // namespace
+
+const TvL2Kernel kTvL2Kernel = {iterate, descend, ascend, solve};
 
 const TvL2PenaltyKernel kTvL2PenaltyKernel = {penalise, coarsen_penalty, invert_diagonal, project,
                                               measure};

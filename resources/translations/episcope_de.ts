@@ -2828,10 +2828,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Orientierungen (Exif) unterscheiden sich.</translation>
     </message>
     <message>
-        <source>Processed pictures, no light field: %1</source>
-        <translation>Fertige Bilder, kein Lichtfeld: %1</translation>
-    </message>
-    <message>
         <source>Rows and columns may be exchanged.</source>
         <translation>Zeilen und Spalten sind vielleicht vertauscht.</translation>
     </message>
@@ -8344,18 +8340,6 @@ s</translation>
     <message>
         <source>wsg13</source>
         <translation>wsg13</translation>
-    </message>
-    <message>
-        <source>choosing sides</source>
-        <translation>Seiten werden gewählt</translation>
-    </message>
-    <message>
-        <source>estimating views</source>
-        <translation>Ansichten werden geschätzt</translation>
-    </message>
-    <message>
-        <source>marking invalid pixels</source>
-        <translation>ungültige Pixel werden markiert</translation>
     </message>
     <message>
         <source>reading the pictures</source>

@@ -2,7 +2,7 @@
 // Functional lifting against the plain loops that one would write first (Pock et al. 2010), and
 // against what the memory can copy. Both use as many threads as the machine has.
 #include "engine/core/parallel.h"
-#include "engine/solvers/lifted_labeling.h"
+#include "engine/solvers/simplex_labeling.h"
 
 #include <benchmark/benchmark.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "engine/capture/plenoptic/decode_files.h"
 #include "engine/capture/plenoptic/processed_container.h"
 #include "engine/capture/plenoptic/raw_picture.h"
-#include "engine/capture/plenoptic/white_pictures.h"
 #include "tests/fuzz/harness.h"
 
 #include <fstream>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/net_weights.h"
-#include "engine/disparity/weights_file.h"
 #include "engine/io/base/atomic_file.h"
 #include "engine/io/base/npy.h"
 #include "engine/io/base/zip.h"

@@ -4,8 +4,8 @@
 #include "app/cli/output.h"
 #include "app/cli/verbs/verbs.h"
 #include "engine/capture/plenoptic/decode_files.h"
-#include "engine/capture/plenoptic/lfp_container.h"
 #include "engine/capture/plenoptic/processed_container.h"
+#include "engine/capture/plenoptic/raw_picture.h"
 #include "engine/core/finding.h"
 #include "engine/core/text.h"
 

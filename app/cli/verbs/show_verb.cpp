@@ -21,7 +21,6 @@
 #include "engine/io/models/map_reading.h"
 #include "engine/io/models/result_file.h"
 #include "engine/io/models/scribble_file.h"
-#include "engine/render/legend.h"
 #include "engine/render/shade.h"
 
 #include <fmt/format.h>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/capture/plenoptic/processed_container.h"
 
-#include "engine/capture/plenoptic/lfp_container.h"
 #include "engine/capture/plenoptic/raw_picture.h"
 #include "engine/core/error.h"
 #include "engine/core/finding.h"

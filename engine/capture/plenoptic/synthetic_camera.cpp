@@ -7,7 +7,6 @@
 #include "engine/io/base/image_file.h"
 #include "engine/io/base/json.h"
 
-#include <fmt/format.h>
 #include <Eigen/LU>
 #include <nlohmann/json.hpp>
 

@@ -201,12 +201,6 @@ void residual_row(const ResidualRow& row) {
   fill_row<false>(row);
 }
 
-}  // namespace
-
-const ResidualKernel kResidualKernel = {residual_row};
-
-namespace {
-
 struct PackedColor {
   IntVec channel[3];
 };
@@ -249,13 +243,6 @@ void trust(const TrustRow& row) {
     store(row.trust + x, square_root(square_root(line * least(share, splat(1)))));
   }
 }
-
-}  // namespace
-
-extern const TrustKernel kTrustKernel;
-const TrustKernel kTrustKernel{gradients, trust};
-
-namespace {
 
 void gather_neighbors(const NeighborRow& row) {
   for (int x = 0; x < row.width; x += kLanes) {
@@ -329,6 +316,11 @@ void choose_side(const SideRow& row) {
 }
 
 }  // namespace
+
+const ResidualKernel kResidualKernel = {residual_row};
+
+extern const TrustKernel kTrustKernel;
+const TrustKernel kTrustKernel{gradients, trust};
 
 const SideKernel kSideKernel = {gather_neighbors, choose_side};
 

@@ -168,13 +168,6 @@ void add(const MatchingTile& tile) {
   add_rows<4>(tile);
 }
 
-}  // namespace
-
-extern const MatchingKernel kMatchingKernel;
-const MatchingKernel kMatchingKernel{add};
-
-namespace {
-
 // Sums of `padded`, whose payload begins at lane `radius` between zeros, over 2·radius + 1 lanes.
 void sum_along(const GuideRow& row, float* padded, float* out) {
   for (int x = 0; x < row.radius; ++x) padded[x] = 0;
@@ -267,6 +260,9 @@ void apply(const GuideRow& row, const GuidedSums& sums, float* out) {
 }
 
 }  // namespace
+
+extern const MatchingKernel kMatchingKernel;
+const MatchingKernel kMatchingKernel{add};
 
 extern const GuidedKernel kGuidedKernel;
 const GuidedKernel kGuidedKernel{sum_products, solve, apply};

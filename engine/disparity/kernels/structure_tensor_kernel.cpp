@@ -332,13 +332,6 @@ void accumulate(const TensorBlock& block, const TensorFilters& filters, const Sh
   }
 }
 
-}  // namespace
-
-extern const TensorKernel kTensorKernel;
-const TensorKernel kTensorKernel{differentiate, accumulate};
-
-namespace {
-
 // Taps are symmetric: both samples of a pair are added first, on adders that multiplications leave
 // idle.
 template <int kCount>
@@ -520,13 +513,6 @@ void merge(const float* disparity, const float* coherence, int count, int power,
   }
 }
 
-}  // namespace
-
-extern const OrientationKernel kOrientationKernel;
-const OrientationKernel kOrientationKernel{select, resolve, merge};
-
-namespace {
-
 // Keeps divisions by zero out where there is no texture.
 constexpr float kTiny = 1e-20F;
 
@@ -615,6 +601,12 @@ void select(const TensorBlock& block, const TensorFilters& filters, const Shear&
 }
 
 }  // namespace
+
+extern const TensorKernel kTensorKernel;
+const TensorKernel kTensorKernel{differentiate, accumulate};
+
+extern const OrientationKernel kOrientationKernel;
+const OrientationKernel kOrientationKernel{select, resolve, merge};
 
 extern const EigenvectorKernel kEigenvectorKernel;
 const EigenvectorKernel kEigenvectorKernel{select};

@@ -2,7 +2,7 @@
 #include "engine/labeling/label_review.h"
 
 #include "engine/core/error.h"
-#include "engine/labeling/edge_probability.h"
+#include "engine/labeling/pixel_features.h"
 #include "engine/labeling/ray_labeling.h"
 #include "engine/scenes/builtin.h"
 #include "tests/test_main.h"

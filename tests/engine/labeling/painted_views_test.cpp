@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/labeling/painted_views.h"
+#include "engine/labeling/correct_views.h"
 
 #include "tests/test_main.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/render/legend.h"
+#include "engine/render/shade.h"
 #include "tests/test_main.h"
 
 namespace episcope::in_legend_test {

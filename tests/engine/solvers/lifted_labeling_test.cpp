@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/solvers/lifted_labeling.h"
 #include "engine/core/error.h"
 #include "engine/solvers/layered_kernel.h"
+#include "engine/solvers/simplex_labeling.h"
 #include "engine/solvers/tv_l2.h"
 #include "tests/cpu_time.h"
 #include "tests/engine/solvers/random_costs.h"

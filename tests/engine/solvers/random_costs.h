@@ -2,8 +2,7 @@
 #pragma once
 
 #include "engine/core/image.h"
-#include "engine/solvers/lifted_labeling.h"
-#include "engine/solvers/pair_limits.h"
+#include "engine/solvers/layered_sweep.h"
 #include "engine/solvers/simplex_labeling.h"
 
 #include <algorithm>

@@ -2,7 +2,6 @@
 #include "engine/solvers/simplex_labeling.h"
 #include "engine/core/error.h"
 #include "engine/solvers/layered_sweep.h"
-#include "engine/solvers/lifted_labeling.h"
 #include "tests/cpu_time.h"
 #include "tests/engine/solvers/random_costs.h"
 #include "tests/test_main.h"

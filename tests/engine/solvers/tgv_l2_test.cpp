@@ -60,12 +60,10 @@ void TgvL2Test::affineImage_isReproduced() {
   const Image<float> f = affine(40, 56, 0.02F, -0.01F);
   Image<float> u(40, 56);
 
-  const TgvL2Result result =
-      solve_tgv_l2({.f = f, .w = {}, .g = {}, .lambda = 0.5}, 3000, Progress(), u.view());
+  solve_tgv_l2({.f = f, .w = {}, .g = {}, .lambda = 0.5}, 3000, Progress(), u.view());
 
   // Affine images cost nothing, so they are the minimum; the iteration comes near to it.
   QVERIFY2(rms(u, f) < 1e-3, qPrintable(QString::number(rms(u, f))));
-  QVERIFY(result.energy < 0.02 * result.start_energy);
 }
 
 void TgvL2Test::noiseOnASlope_isRemoved() {

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/capture/plenoptic/decode_files.h"
-#include "engine/capture/plenoptic/lfp_container.h"
 #include "engine/capture/plenoptic/processed_container.h"
 #include "engine/capture/plenoptic/raw_picture.h"
-#include "engine/capture/plenoptic/white_pictures.h"
 #include "engine/core/error.h"
 #include "engine/core/finding.h"
 #include "engine/io/base/exchange_files.h"

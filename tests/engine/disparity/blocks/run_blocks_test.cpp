@@ -209,8 +209,7 @@ class RunBlocksTest : public QObject {
 };
 
 void RunBlocksTest::localMethodsAndMethodsByViews_runInBlocks() {
-  for (const char* id :
-       {"epi_l", "epi_s", "st_av_l", "st_ch_l", "st_av_s", "st_ch_s", "plane_pm", "net"}) {
+  for (const char* id : {"epi_l", "epi_s", "plane_pm", "net"}) {
     QVERIFY2(find_estimator(id).can_run_in_blocks(), id);
   }
 }

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/disparity/multi_camera_energy.h"
 
 #include "engine/disparity/kz02.h"
 #include "engine/disparity/matching_cost.h"

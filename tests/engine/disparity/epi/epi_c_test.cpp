@@ -165,7 +165,9 @@ void EpiCTest::oneSweep_isThatOfTheDefinition() {
         const double share = at - tap;
         const auto& to = u[1 - from];
         const auto a = static_cast<float>((1 - share) * to[tap] + share * to[tap + 1] - u[from][x]);
-        const double slope = penalty.slope(a), curvature = penalty.curvature(a);
+        const double slope =
+            std::clamp(a * penalty.fall / penalty.softness, -penalty.fall, penalty.rise);
+        const double curvature = penalty.fall / std::max(std::fabs(a), penalty.softness);
         if (from == view) {
           pull[x] += slope;
           bend[x] += curvature;

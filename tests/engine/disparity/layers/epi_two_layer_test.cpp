@@ -3,7 +3,6 @@
 
 #include "engine/disparity/disparity_range.h"
 #include "engine/disparity/epi_s.h"
-#include "engine/disparity/layer_decision.h"
 #include "engine/scenes/builtin.h"
 #include "engine/scenes/stage.h"
 #include "tests/engine/disparity/light_fields.h"

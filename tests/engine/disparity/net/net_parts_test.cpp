@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/disparity/net_parts.h"
+#include "engine/disparity/net.h"
 #include "tests/engine/disparity/net/net_vectors.h"
 #include "tests/test_main.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/disparity/guided_filter.h"
+#include "engine/disparity/stereo_costs.h"
 
 #include "tests/engine/disparity/light_fields.h"
 #include "tests/test_main.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/labeling/label_surfaces.h"
+#include "engine/labeling/predict_from_strokes.h"
 #include "tests/test_main.h"
 
 #include <cmath>

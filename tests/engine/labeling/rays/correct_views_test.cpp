@@ -2,8 +2,8 @@
 #include "engine/labeling/correct_views.h"
 
 #include "engine/labeling/labeler.h"
-#include "engine/labeling/ray_vote.h"
-#include "engine/solvers/pair_limits.h"
+#include "engine/labeling/regularizer.h"
+#include "engine/solvers/layered_sweep.h"
 #include "tests/engine/labeling/rays/noisy_case.h"
 #include "tests/test_main.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/labeling/edge_probability.h"
+#include "engine/labeling/pixel_features.h"
 
 #include "engine/scenes/builtin.h"
 #include "tests/test_main.h"

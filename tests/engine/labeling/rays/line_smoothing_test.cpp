@@ -29,8 +29,6 @@ class LineSmoothingTest : public QObject {
   void lines_endInDifferentPixels();
   void smoothing_beatsViews_data();
   void smoothing_beatsViews();
-  void energy_isAtMostThatOfTheVote_data();
-  void energy_isAtMostThatOfTheVote();
   void coherence_makesRaysAgree();
   void smoothing_leavesCertainLabelsAlone();
   void smoothing_isTheSameForAnyThreads();
@@ -114,30 +112,6 @@ void LineSmoothingTest::smoothing_beatsViews() {
   const QByteArray told = QString("%1 %2").arg(views).arg(rays).toUtf8();
   QVERIFY2(rays > views + 0.01, told);
   QVERIFY2(rays > (scene == "bars" ? 0.97 : 0.985), told);
-}
-
-void LineSmoothingTest::energy_isAtMostThatOfTheVote_data() {
-  smoothing_beatsViews_data();
-}
-
-// What the vote stands in for: it cannot have less than the bound allows.
-void LineSmoothingTest::energy_isAtMostThatOfTheVote() {
-  QFETCH(QString, scene);
-  const Case noisy(scene.toStdString(), 0.4, 64);
-  for (const double smoothness : {1.0, 8.0}) {
-    RayLabelingParameters parameters;
-    parameters.smoothness = smoothness;
-    parameters.gap_joint = 1e-3;
-
-    const RayLabeling solved = noisy.label(Regularizer::Wsg13, parameters);
-    const RayLabeling voted = noisy.label(Regularizer::Rayspace, parameters);
-
-    const double energy = line_energy(noisy.input(), parameters, solved.labels);
-    const double of_vote = line_energy(noisy.input(), parameters, voted.labels);
-    QVERIFY(std::fabs(energy - solved.energy) < 1e-6 * energy);
-    QVERIFY2(energy <= of_vote * (1 + 1e-6), qPrintable(QString("%1 %2").arg(energy).arg(of_vote)));
-    QVERIFY(of_vote >= solved.bound);
-  }
 }
 
 void LineSmoothingTest::coherence_makesRaysAgree() {

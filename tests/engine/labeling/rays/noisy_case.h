@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/labeling/edge_probability.h"
+#include "engine/labeling/pixel_features.h"
 #include "engine/labeling/regularizer.h"
 #include "engine/scenes/builtin.h"
 #include "tests/engine/labeling/noisy_labels.h"

@@ -2,10 +2,9 @@
 #include "engine/labeling/regularizer.h"
 
 #include "engine/core/error.h"
-#include "engine/labeling/edge_probability.h"
+#include "engine/labeling/pixel_features.h"
 #include "engine/labeling/label_review.h"
 #include "engine/labeling/ray_labeling.h"
-#include "engine/labeling/solve_views.h"
 #include "engine/scenes/builtin.h"
 #include "tests/cpu_time.h"
 #include "tests/engine/labeling/rays/noisy_case.h"

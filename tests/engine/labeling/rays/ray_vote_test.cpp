@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/labeling/ray_vote.h"
+#include "engine/labeling/regularizer.h"
 
 #include "tests/engine/labeling/rays/noisy_case.h"
 #include "tests/test_main.h"
