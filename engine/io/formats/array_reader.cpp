@@ -15,6 +15,7 @@
 #include "engine/io/models/array_maps.h"
 #include "engine/io/models/array_samples.h"
 #include "engine/io/models/choose_layout.h"
+#include "engine/io/models/load_views.h"
 #include "engine/io/models/mat5.h"
 #include "engine/io/models/numpy_file.h"
 #include "engine/io/models/order/list_layout.h"
@@ -313,6 +314,7 @@ class SingleReading {
     fit_to_grid(file_, options_, chosen_);
     progress.step("reading views");
     read_views(progress.part(0.05, 0.65));
+    show_read_center();
     progress.step("reading maps");
     read_maps(progress.part(0.65, 0.75));
     read_others(progress.part(0.75, 0.8));
@@ -324,11 +326,24 @@ class SingleReading {
   }
 
  private:
+  /// Whether a view can be read without the others.
+  [[nodiscard]] bool can_show_first() const {
+    return !array_->is_sequential() && !chosen_.layout.views_are_fastest();
+  }
   void show_center() const {
-    if (!options_.on_center_view || array_->is_sequential()) return;
+    if (!options_.on_center_view || !can_show_first()) return;
     const GridShape grid = chosen_.layout.grid();
     options_.on_center_view(array_preview(*array_, chosen_.layout, grid.center()), parts_.info,
                             grid);
+  }
+  void show_read_center() const {
+    if (!options_.on_center_view || can_show_first()) return;
+    const GridShape grid = grid_of(parts_.samples);
+    std::visit(
+        [&]<class T>(const ViewStack<T>& stack) {
+          options_.on_center_view(preview_rgb<T>(stack.view(grid.center())), parts_.info, grid);
+        },
+        parts_.samples);
   }
   void read_views(const Progress& progress) {
     ArraySamples read = read_samples(*array_, chosen_.layout, progress);

@@ -44,12 +44,8 @@ struct FolderRecord {
   bool is_doubtful = false;
 };
 
-struct CollectionOptions {
-  /// File that keeps the content of headers (CollectionCache); empty = none.
-  std::filesystem::path cache_file{};
-  /// Called for every light field as soon as it is found, with the results known by then.
-  std::function<void(const CollectionEntry&)> on_entry{};
-};
+/// Called for every light field as soon as it is found, with the results known by then.
+using OnCollectionEntry = std::function<void(const CollectionEntry&)>;
 
 /// Finds every light field in `root` and below, in any format and at any depth, in the order of
 /// their paths. `root` may be a light field itself, or a file. A scene folder is one light field
@@ -59,37 +55,8 @@ struct CollectionOptions {
 /// cannot be opened are listed with their problem. Reads headers only. Throws IoError if there is
 /// no `root`. Throws Cancelled.
 [[nodiscard]] std::vector<CollectionEntry> find_light_fields(const std::filesystem::path& root,
-                                                             const CollectionOptions& options,
+                                                             const OnCollectionEntry& on_entry,
                                                              const Progress& progress);
-
-/// Content of folders at their last scan, in a file that may be lost or damaged at any time: then
-/// everything is scanned again. Keeps only the folders of the last listing.
-class CollectionCache {
- public:
-  /// Reads the file if this version wrote it with the same readers. An empty path keeps nothing.
-  explicit CollectionCache(std::filesystem::path file);
-
-  /// Content of the folder when it had this fingerprint; null if unknown.
-  [[nodiscard]] const FolderRecord* find(const std::filesystem::path& folder,
-                                         std::uint64_t fingerprint) const;
-  void keep(const std::filesystem::path& folder, std::uint64_t fingerprint, FolderRecord record);
-  /// Writes the records unless they equal those read. Does nothing where writing fails.
-  void save() const;
-
- private:
-  struct Kept {
-    std::uint64_t fingerprint = 0;
-    FolderRecord record;
-  };
-  using Records = std::map<std::string, Kept>;
-
-  void read();
-
-  std::filesystem::path file_;
-  Records old_;
-  Records new_;
-  bool has_changed_ = false;
-};
 
 struct ListedFile {
   std::filesystem::path path;

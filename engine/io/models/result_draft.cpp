@@ -269,9 +269,9 @@ void DraftFile::create(const std::filesystem::path& path, const DraftShape& shap
   for (const Dataset& dataset : datasets_of(shape)) {
     const std::string name = in_group(dataset.name);
     if (sample_bytes(dataset.map) == 1) {
-      output.reserve_dataset<std::uint8_t>(name, extent, axes, dataset.unit);
+      output.add_dataset<std::uint8_t>(name, extent, axes, dataset.unit, true);
     } else {
-      output.reserve_dataset<float>(name, extent, axes, dataset.unit);
+      output.add_dataset<float>(name, extent, axes, dataset.unit, true);
     }
   }
   describe_maps(output, maps);

@@ -593,10 +593,6 @@ std::string doubt_of_unit(const LightField::Samples& samples, ViewIndex at, Name
                           const MapUnit& unit) {
   const auto better = find_better_unit(samples, at, values.field.view(at), unit.factor);
   if (!better) return {};
-  if (better->offset_px != 0) {
-    return fmt::format(finding_text("units.offset"), values.name, unit.text, better->error_as_taken,
-                       better->factor, better->offset_px, better->error);
-  }
   return fmt::format(finding_text("units.doubt"), values.name, unit.text, better->error_as_taken,
                      better->factor, better->error, better->factor);
 }
