@@ -84,7 +84,7 @@ std::span<const Reader> readers() {
   static const Reader kReaders[] = {blender_reader(), sequence_reader(),  frames_reader(),
                                     mosaic_reader(),  matlab_reader(),    hdf5_array_reader(),
                                     numpy_reader(),   archive_reader(),   benchmark_reader(),
-                                    excerpt_reader(), image_grid_reader()};
+                                    image_grid_reader()};
   return kReaders;
 }
 
