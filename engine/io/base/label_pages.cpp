@@ -31,6 +31,7 @@ constexpr std::uint64_t kBits = 258, kPhotometric = 262, kDescription = 270, kSa
 constexpr std::uint64_t kUnsigned = 1, kSigned = 2, kFloat = 3;  // values of kSampleFormat
 constexpr std::uint64_t kBlackIsZero = 1, kPalette = 3;          // values of kPhotometric
 constexpr std::uint64_t kLongestText = 64 << 10;
+constexpr std::uintmax_t kLargest = std::uintmax_t{1} << 30;  ///< What a cv::Mat of bytes holds.
 
 struct PageForm {
   std::uint64_t bits = 1;
@@ -44,9 +45,9 @@ struct PageForm {
 }
 
 /// What OpenCV decodes of a TIFF page. It refuses integers of more than 16 bits that have no sign
-/// or 64 bits, and turns palettes into colors. So it gets a copy of the directory of the page that
-/// calls the first floats and the second gray, behind the end of the file in memory; bits stay as
-/// they are.
+/// or 64 bits, and floats of 16 bits, and turns palettes into colors. So it gets a copy of the
+/// directory of the page that calls the first floats, the second integers and the third gray, behind
+/// the end of the file in memory; bits stay as they are.
 class TiffPages {
  public:
   explicit TiffPages(const fs::path& path) : path_(path), file_(path) {
@@ -66,13 +67,19 @@ class TiffPages {
     }
     return text;
   }
-  /// An entry of one number of 16 bits.
-  [[nodiscard]] std::string entry(std::uint64_t tag, std::uint64_t number) const {
+  /// An entry of numbers of 16 bits that are all the same, as many as fit into it.
+  [[nodiscard]] std::string entry(std::uint64_t tag, std::uint64_t number,
+                                  std::uint64_t count = 1) const {
     constexpr std::uint64_t kShort = 3;
-    const std::uint64_t place = file_.place_bytes();
-    return packed(tag, 2) + packed(kShort, 2) + packed(1, place) + packed(number, 2) +
-           std::string(place - 2, '\0');
+    std::string values;
+    for (std::uint64_t i = 0; i < count; ++i) values += packed(number, 2);
+    values.resize(file_.place_bytes(), '\0');
+    return packed(tag, 2) + packed(kShort, 2) + packed(count, file_.place_bytes()) + values;
   }
+  /// The entry that calls all samples of a page so; that of the file if its values lie elsewhere,
+  /// where they are changed.
+  [[nodiscard]] std::map<std::uint64_t, std::string> claim(std::uint64_t directory,
+                                                           std::uint64_t format);
   /// Begins the file with a copy of a directory in which these entries are changed or added.
   void begin_with(std::uint64_t directory, std::map<std::uint64_t, std::string> entries);
 
@@ -122,9 +129,27 @@ void TiffPages::begin_with(std::uint64_t directory, std::map<std::uint64_t, std:
   bytes_.replace(file_.place_of_start(), file_.place_bytes(), packed(begin, file_.place_bytes()));
 }
 
+std::map<std::uint64_t, std::string> TiffPages::claim(std::uint64_t directory,
+                                                      std::uint64_t format) {
+  constexpr std::uint64_t kBytes = 2, kLong = 4;  // of a value; and a type of 4 bytes
+  const auto stored = file_.tag(directory, kSampleFormat);
+  const std::uint64_t bytes = stored ? stored->bytes : kBytes;
+  if (bytes <= file_.place_bytes()) {
+    const bool is_long = stored && stored->type == kLong;
+    return {{kSampleFormat, entry(kSampleFormat, format, bytes / (is_long ? kLong : kBytes))}};
+  }
+  for (std::uint64_t at = stored->place; at + kBytes <= bytes_.size() && at < stored->place + bytes;
+       at += kBytes) {
+    bytes_.replace(at, kBytes, packed(format, kBytes));
+  }
+  return {};
+}
+
+/// Empty if that fails.
 cv::Mat TiffPages::decode(std::uint64_t directory, const PageForm& form) {
   std::map<std::uint64_t, std::string> changed;
-  if (form.bits > 16) changed[kSampleFormat] = entry(kSampleFormat, kFloat);
+  if (form.bits > 16) changed = claim(directory, kFloat);
+  if (form.bits == 16 && form.format == kFloat) changed = claim(directory, kUnsigned);
   if (!form.palette.empty()) changed[kPhotometric] = entry(kPhotometric, kBlackIsZero);
   begin_with(directory, std::move(changed));
   const QuietDecoding quiet;
@@ -135,27 +160,23 @@ cv::Mat TiffPages::decode(std::uint64_t directory, const PageForm& form) {
   } catch (const cv::Exception&) {
     decoded.release();
   }
-  if (decoded.empty()) refuse(path_, "a page of this TIFF file cannot be decoded");
   return decoded;
 }
 
-NumberType type_of(const fs::path& path, const PageForm& form) {
-  const bool is_signed = form.format == kSigned;
-  if (form.format == kFloat && form.bits == 32) return NumberType::Float32;
-  if (form.format == kFloat && form.bits == 64) return NumberType::Float64;
-  if (form.format != kFloat && form.bits <= 8)
-    return is_signed ? NumberType::Int8 : NumberType::UInt8;
-  if (form.format != kFloat && form.bits == 16) {
-    return is_signed ? NumberType::Int16 : NumberType::UInt16;
-  }
-  if (form.format != kFloat && form.bits == 32) {
-    return is_signed ? NumberType::Int32 : NumberType::UInt32;
-  }
-  if (form.format != kFloat && form.bits == 64) {
-    return is_signed ? NumberType::Int64 : NumberType::UInt64;
-  }
-  refuse(path, fmt::format("this TIFF file has {} of {} bits, which are not read",
-                           form.format == kFloat ? "floats" : "samples", form.bits));
+/// By format and bits; samples of fewer than 8 bits become bytes.
+const std::map<std::pair<std::uint64_t, std::uint64_t>, NumberType> kTypes{
+    {{kUnsigned, 8}, NumberType::UInt8},   {{kUnsigned, 16}, NumberType::UInt16},
+    {{kUnsigned, 32}, NumberType::UInt32}, {{kUnsigned, 64}, NumberType::UInt64},
+    {{kSigned, 8}, NumberType::Int8},      {{kSigned, 16}, NumberType::Int16},
+    {{kSigned, 32}, NumberType::Int32},    {{kSigned, 64}, NumberType::Int64},
+    {{kFloat, 16}, NumberType::Float16},   {{kFloat, 32}, NumberType::Float32},
+    {{kFloat, 64}, NumberType::Float64}};
+
+std::optional<NumberType> type_of(const PageForm& form) {
+  const std::uint64_t format =
+      form.format == kSigned || form.format == kFloat ? form.format : kUnsigned;
+  const auto found = kTypes.find({format, std::max<std::uint64_t>(form.bits, 8)});
+  return found == kTypes.end() ? std::nullopt : std::optional(found->second);
 }
 
 template <class T>
@@ -168,7 +189,12 @@ void require_whole(const fs::path& path, const std::uint8_t* row, int width) {
 }
 
 LabelPicture numbers_of(const fs::path& path, const cv::Mat& decoded, const PageForm& form) {
-  const NumberType type = type_of(path, form);
+  const auto known = type_of(form);
+  if (!known) {
+    refuse(path, fmt::format("this TIFF file has {} of {} bits, which are not read",
+                             form.format == kFloat ? "floats" : "samples", form.bits));
+  }
+  const NumberType type = *known;
   if (decoded.channels() != 1 || decoded.elemSize1() != byte_size(type)) {
     refuse(path, "a page of this TIFF file cannot be decoded");
   }
@@ -177,6 +203,12 @@ LabelPicture numbers_of(const fs::path& path, const cv::Mat& decoded, const Page
     const std::uint8_t* row = decoded.ptr(y);
     if (type == NumberType::Float32) require_whole<float>(path, row, decoded.cols);
     if (type == NumberType::Float64) require_whole<double>(path, row, decoded.cols);
+    if (type == NumberType::Float16) {
+      std::vector<float> values(static_cast<std::size_t>(decoded.cols));
+      convert_numbers(type, row, values.size(), values.data());
+      require_whole<float>(path, reinterpret_cast<const std::uint8_t*>(values.data()),
+                           decoded.cols);
+    }
     convert_numbers(type, row, static_cast<std::size_t>(decoded.cols), picture.numbers.row(y));
   }
   if (form.bits >= 8) return picture;
@@ -223,11 +255,30 @@ void require_directories(const fs::path& path, TiffFile& file) {
 
 }  // namespace
 
+std::vector<cv::Mat> decode_rare_tiff(const fs::path& path, int count) {
+  std::vector<cv::Mat> decoded;
+  if (!TiffFile(path).is_tiff() || fs::file_size(path) > kLargest) return decoded;
+  TiffPages pages(path);
+  for (const std::uint64_t directory : pages.file().directories(count)) {
+    const PageForm form = pages.form(directory);
+    const cv::Mat page = pages.decode(directory, form);
+    const auto type = type_of(form);
+    if (page.empty() || !type || page.elemSize1() != byte_size(*type)) break;
+    cv::Mat floats(page.rows, page.cols, CV_32FC(page.channels()));
+    const auto samples = static_cast<std::size_t>(page.cols * page.channels());
+    for (int y = 0; y < page.rows; ++y) {
+      convert_numbers(*type, page.ptr(y), samples, floats.ptr<float>(y));
+    }
+    decoded.push_back(floats);
+    if (static_cast<int>(decoded.size()) == count) break;
+  }
+  return decoded;
+}
+
 std::vector<LabelPicture> decode_label_pages(const fs::path& path) {
   require_readable_file(path);
   require_plausible_picture(path);
   constexpr int kMostPages = 1 << 14;
-  constexpr std::uintmax_t kLargest = std::uintmax_t{1} << 30;  // what a cv::Mat of bytes holds
   std::vector<LabelPicture> pictures;
   if (!TiffFile(path).is_tiff()) {
     pictures.push_back(decode_label_picture(path));
@@ -241,6 +292,7 @@ std::vector<LabelPicture> decode_label_pages(const fs::path& path) {
   for (const std::uint64_t directory : directories) {
     const PageForm form = pages.form(directory);
     const cv::Mat decoded = pages.decode(directory, form);
+    if (decoded.empty()) refuse(path, "a page of this TIFF file cannot be decoded");
     pictures.push_back(form.is_gray ? numbers_of(path, decoded, form) : colors_of(path, decoded));
   }
   return pictures;
