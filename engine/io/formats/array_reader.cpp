@@ -17,6 +17,7 @@
 #include "engine/io/models/choose_layout.h"
 #include "engine/io/models/load_views.h"
 #include "engine/io/models/mat5.h"
+#include "engine/io/models/names/grid_names.h"
 #include "engine/io/models/numpy_file.h"
 #include "engine/io/models/order/list_layout.h"
 #include "engine/io/models/sidecar_maps/map_name.h"
@@ -104,80 +105,8 @@ void decode_luma_chroma(const std::string& name, LightField::Samples& samples,
       samples);
 }
 
-constexpr std::size_t kYuvPlanes = 3;
 constexpr std::size_t kFewestListed = 4;
 
-/// 3N×H×W as N×3×H×W.
-ArrayShape grouped(const ArrayShape& list) {
-  return {list[0] / kYuvPlanes, kYuvPlanes, list[1], list[2]};
-}
-
-class GroupedInput : public ArrayInput {
- public:
-  explicit GroupedInput(std::unique_ptr<ArrayInput> list)
-      : ArrayInput(list->path(), grouped(list->shape()), list->type()), list_(std::move(list)) {}
-  [[nodiscard]] bool is_sequential() const override { return list_->is_sequential(); }
-
- private:
-  void read_block(const ArrayShape& start, const ArrayShape& count,
-                  std::uint8_t* out) const override {
-    const ArrayShape part{count[1], count[2], count[3]};
-    const std::size_t bytes = element_count(part) * byte_size(type());
-    for (std::size_t i = 0; i < count[0]; ++i, out += bytes) {
-      list_->read_raw({(start[0] + i) * kYuvPlanes + start[1], start[2], start[3]}, part, out);
-    }
-  }
-
-  std::unique_ptr<ArrayInput> list_;
-};
-
-class GroupedFile : public ArrayFile {
- public:
-  GroupedFile(const ArrayFile& file, const std::string& list)
-      : ArrayFile(file.path(), file.form()), file_(file), list_(list) {
-    for (ArrayEntry entry : file.entries()) {
-      entry.parts.clear();  // the file itself puts them together
-      if (entry.name == list) entry.shape = grouped(entry.shape);
-      add(std::move(entry));
-    }
-  }
-
- private:
-  [[nodiscard]] std::unique_ptr<ArrayInput> open_stored(const ArrayEntry& entry) const override {
-    const auto& all = file_.entries();
-    auto array = file_.open(*std::ranges::find(all, entry.name, &ArrayEntry::name));
-    if (entry.name != list_) return array;
-    return std::make_unique<GroupedInput>(std::move(array));
-  }
-
-  const ArrayFile& file_;
-  std::string list_;
-};
-
-bool may_be_stacked(const ArrayEntry& entry) {
-  constexpr std::size_t kAxes = 3;
-  return entry.shape.size() == kAxes && entry.order == IndexOrder::C && entry.stated_axes.empty() &&
-         entry.parts.empty() && entry.shape[0] % kYuvPlanes == 0 &&
-         entry.shape[0] / kYuvPlanes >= kFewestListed;
-}
-
-/// The file as if a list of 3N grey pictures in C order, 3N×H×W, were one of N colored ones,
-/// N×3×H×W, if the pictures are the channels of views one after the other, as networks take them:
-/// then views move, and channels do not. Null for other files, and where options say what is meant.
-/// `file` must outlive it.
-std::unique_ptr<ArrayFile> with_stacked_channels(const ArrayFile& file,
-                                                 const OpenOptions& options) {
-  if (!options.axes.empty() || !options.dataset.empty()) return nullptr;
-  const std::vector<const ArrayEntry*> fields = light_fields_of(file, {});
-  if (fields.size() != 1 || !may_be_stacked(*fields.front())) return nullptr;
-  const ArrayEntry& list = *fields.front();
-  const std::vector<ArrayLayout> layouts = possible_layouts(list.shape, list.order);
-  if (layouts.size() != 1 || layouts.front().axes != "nyx") return nullptr;
-  const ArrayLayout as_grid{grouped(list.shape), "vuyx"};
-  const ViewAxes axes = measure_parallax(GroupedInput(file.open(list)), as_grid);
-  if (!are_rather_channels(axes.along_u, axes.along_v)) return nullptr;
-  return std::make_unique<GroupedFile>(file, list.name);
-}
 
 namespace fs = std::filesystem;
 
@@ -402,19 +331,11 @@ class SingleReading {
   ConventionReport& report_ = scene_.convention;
 };
 
-/// Keys of the reading options that every reader of arrays knows.
-std::span<const char* const> array_options() {
-  return kArrayOptions;
-}
-
 /// What the shape of the light field of a file of arrays tells. Throws NoLightField if none of them
 /// can be one; IoError, Undecided.
 SceneProbe probe_arrays(const ArrayFile& file, const OpenOptions& options) {
   const auto several = MultiFieldFile::find(file, options);
-  if (!several) {
-    const auto colored = with_stacked_channels(file, options);
-    return probe_single(colored ? *colored : file, options);
-  }
+  if (!several) return probe_single(file, options);
   SceneProbe probe = probe_single(*several->one(file, several->index(file, options)), options);
   if (!several->is_named(options)) probe.frames = several->count();
   return probe;
@@ -435,8 +356,7 @@ Scene read_array_scene(const ArrayFile& file, const char* reader, const OpenOpti
                       "leave out --frame",
                       file.path().string(), options.frame));
     }
-    const auto colored = with_stacked_channels(file, options);
-    return SingleReading(colored ? *colored : file, reader, options, more).read(progress);
+    return SingleReading(file, reader, options, more).read(progress);
   }
   const int index = several->index(file, options);
   Scene scene = SingleReading(*several->one(file, index), reader, options, {}).read(progress);
@@ -462,19 +382,6 @@ void arrange(ViewStack<T>& stack, const ListLayout& layout) {
     std::copy_n(stack.view({0, i}).data, stack.view_size(), grid.view(layout.place(i)).data);
   }
   stack = std::move(grid);
-}
-
-/// A row, a column, and the grids of several.
-std::vector<ReadingChoice> grid_choices(int count) {
-  std::vector<ReadingChoice> choices{
-      {fmt::format("1x{}", count), fmt::format("{} views in a row", count)},
-      {fmt::format("{}x1", count), fmt::format("{} views in a column", count)}};
-  for (int rows = 2; rows < count; ++rows) {
-    if (count % rows != 0) continue;
-    choices.push_back({fmt::format("{}x{}", rows, count / rows),
-                       fmt::format("{} rows of {} views", rows, count / rows)});
-  }
-  return choices;
 }
 
 }  // namespace
@@ -505,7 +412,7 @@ void arrange_list(const std::filesystem::path& path, const OpenOptions& options,
                       fmt::format("this is a list of {} views, and how they lie on a grid is "
                                   "not certain ({})",
                                   count, layout.evidence),
-                      "grid", grid_choices(count));
+                      "grid", possible_grids(count));
     }
     reason +=
         fmt::format("; list of {} views, {}: {}", count, layout_text(layout), layout.evidence);
@@ -618,7 +525,7 @@ fs::path find_matlab(const fs::path& path, const OpenOptions&) {
 Reader hdf5_array_reader() {
   return {.id = kHdf5Reader,
           .name = "an array of an HDF5 file",
-          .options = array_options(),
+          .options = kArrayOptions,
           .find = find_hdf5_array,
           .read = read_hdf5_array,
           .probe = [](const fs::path& path, const OpenOptions& options) {
@@ -629,7 +536,7 @@ Reader hdf5_array_reader() {
 Reader matlab_reader() {
   return {.id = kMatlabReader,
           .name = "a MATLAB file",
-          .options = array_options(),
+          .options = kArrayOptions,
           .find = find_matlab,
           .read =
               [](const fs::path& path, const OpenOptions& options, const Progress& progress) {
@@ -675,7 +582,7 @@ Reader numpy_reader() {
   return {
       .id = kNumpyReader,
       .name = "a NumPy array",
-      .options = array_options(),
+      .options = kArrayOptions,
       .find = find_numpy,
       .read =
           [](const fs::path& path, const OpenOptions& options, const Progress& progress) {
