@@ -2204,10 +2204,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>%1 % der Pixel sind dunkel und zählen nicht.</translation>
     </message>
     <message>
-        <source>%1 % of the samples are negative</source>
-        <translation>%1 % der Samples sind negativ</translation>
-    </message>
-    <message>
         <source>%1 % of the samples clipped</source>
         <translation>%1 % der Samples abgeschnitten</translation>
     </message>
@@ -2502,10 +2498,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>by occlusion: %1 points to %2, in %3 squares of the view to %4</source>
         <translation>durch Verdeckung: %1 Punkte gegen %2, in %3 Quadraten der Ansicht gegen %4</translation>
-    </message>
-    <message>
-        <source>bytes less 128</source>
-        <translation>Bytes minus 128</translation>
     </message>
     <message>
         <source>camDistance is ignored.</source>
@@ -3278,14 +3270,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>decoded from %1: %2 lenses of %3 px, turned by %4°, views %5 px apart</source>
         <translation>dekodiert aus %1: Linsen von %3 px (%2), um %4° gedreht, Ansichten im Abstand von %5 px</translation>
-    </message>
-    <message>
-        <source>The disparity holds values only where its mask is 0: the mask is taken for one of missing values, as NumPy writes them.</source>
-        <translation>Die Disparität hat nur dort Werte, wo ihre Maske 0 ist: Die Maske gilt als Maske fehlender Werte, wie NumPy sie schreibt.</translation>
-    </message>
-    <message>
-        <source>The mask marks missing values.</source>
-        <translation>Die Maske markiert fehlende Werte.</translation>
     </message>
     <message>
         <source>%1 is named like a map and not used: it has %2, but maps of one view or of all %3×%4 views with %5×%6 px are expected.</source>
