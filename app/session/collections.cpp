@@ -108,7 +108,8 @@ fs::path cache_file(const io::CollectionEntry& entry, const fs::path& cache_fold
   Fnv1a hash;
   std::error_code error;
   hash.add(fs::weakly_canonical(entry.path, error).string());
-  hash.add_word(entry.fingerprint);
+  hash.add_word(entry.bytes);
+  hash.add_word(static_cast<std::uint64_t>(entry.modified));
   return cache_folder / "thumbnails" / (hash_digits(hash.value()) + ".png");
 }
 

@@ -15,8 +15,9 @@ namespace episcope {
 
 /// The light fields below `input` if it is a folder that holds some and is none itself; else empty.
 /// Those that cannot be opened are among them. Throws IoError, Cancelled.
-[[nodiscard]] std::vector<io::CollectionEntry> collection_at(
-    const std::string& input, const io::OpenOptions& options, const Progress& progress);
+[[nodiscard]] std::vector<io::CollectionEntry> collection_at(const std::string& input,
+                                                             const io::OpenOptions& options,
+                                                             const Progress& progress);
 
 /// Thrown for a folder that was to be opened as a light field but holds several.
 class IsCollection : public IoError {

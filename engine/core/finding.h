@@ -151,6 +151,7 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
      "These look like disparity maps of all views"},
     {"samples.normalized", "normalized in some way: 0.1 % of them are darker, 0.1 % brighter"},
     {"samples.unit", "-1 for black, 1 for white"},
+    {"samples.shifted_bytes", "bytes less 128"},
     {"samples.linear",
      "Float samples of the views reach up to {:.3g} with a median of {:.2g}: they are taken as "
      "linear, and divided by {:.4g} so that 99.9 % lie in 0 … 1.",

@@ -2500,6 +2500,10 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>durch Verdeckung: %1 Punkte gegen %2, in %3 Quadraten der Ansicht gegen %4</translation>
     </message>
     <message>
+        <source>bytes less 128</source>
+        <translation>Bytes minus 128</translation>
+    </message>
+    <message>
         <source>camDistance is ignored.</source>
         <translation>camDistance wird nicht verwendet.</translation>
     </message>

@@ -4,9 +4,9 @@
 #include "engine/core/error.h"
 #include "engine/io/base/atomic_file.h"
 #include "engine/io/base/files.h"
-#include "engine/io/base/label_pages.h"
 #include "engine/io/base/quiet_decoding.h"
 #include "engine/io/base/radiance.h"
+#include "engine/io/base/rare_tiff.h"
 #include "engine/io/base/tiff_file.h"
 
 #include <fmt/format.h>

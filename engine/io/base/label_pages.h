@@ -9,15 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace cv {
-class Mat;
-}
-
 namespace episcope::io {
-
-/// Decodes the first `count` pages of a TIFF file with samples that OpenCV refuses, integers of more
-/// than 16 bits and floats of 16, as floats, colors in its order. Fewer if one cannot be decoded.
-[[nodiscard]] std::vector<cv::Mat> decode_rare_tiff(const std::filesystem::path& path, int count);
 
 /// Decodes all pictures of labels in a file: each page of a TIFF, or the picture of another format
 /// (`decode_label_picture`). Pages hold integers of 1 to 64 bits, with or without a sign, which are

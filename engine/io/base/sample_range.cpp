@@ -146,7 +146,7 @@ struct FloatSpread {
   float largest = 0;
   float smallest = 0;
   double negative_share = 0;
-  double whole_share = 0;      ///< Of the samples that are not 0.
+  double whole_share = 0;  ///< Of the samples that are not 0.
   float median = 0;
   float shadow = 0;     ///< The quantile of 0.1 %,
   float highlight = 0;  ///< and of 99.9 %.
@@ -198,6 +198,8 @@ void map_levels(ViewStack<float>& stack, float black, float white) {
 /// Samples around 0, as networks are fed with.
 void scale_signed(ViewStack<float>& stack, const FloatSpread& spread, ConventionReport& report) {
   const float amplitude = std::max(spread.largest, -spread.smallest);
+  const bool is_of_bytes = spread.whole_share >= kMostlyWhole && spread.smallest >= -128 &&
+                           spread.largest <= 127 && amplitude > kMaxSignedSample;
   float black = spread.shadow;
   float white = std::max(spread.highlight, std::nextafter(spread.shadow, spread.largest));
   std::string_view meaning = finding_text("samples.normalized");
@@ -205,6 +207,10 @@ void scale_signed(ViewStack<float>& stack, const FloatSpread& spread, Convention
     black = -1;
     white = 1;
     meaning = finding_text("samples.unit");
+  } else if (is_of_bytes) {
+    black = -128;
+    white = 127;
+    meaning = finding_text("samples.shifted_bytes");
   }
   map_levels(stack, black, white);
   report.samples = fmt::format("float32 around 0; estimators see (value − {0:.4g})/{1:.4g}", black,

@@ -11,6 +11,7 @@
 #include "engine/io/formats/write_scene.h"
 #include "engine/io/models/array_samples.h"
 #include "engine/io/models/assemble_scene.h"
+#include "engine/io/models/estimated.h"
 #include "engine/io/models/load_views.h"
 #include "engine/io/models/order/view_axes.h"
 #include "engine/io/models/sidecar_maps/map_name.h"
@@ -305,23 +306,6 @@ ArchiveLabels read_labels(const Hdf5Input& file, const FieldShape& shape, Conven
   return own;
 }
 
-/// How the depth was estimated, if the file says that it is a result.
-std::optional<Provenance> read_estimated(const Hdf5Input& file) {
-  for (const char* name : {"GT_DEPTH", "GT_DEPTH_FOREGROUND"}) {
-    if (!file.has_numbers(name)) continue;
-    const auto method = file.text(name, kEstimatedBy);
-    if (!method) continue;
-    Provenance estimated;
-    estimated.method = *method;
-    estimated.parameters =
-        parameters_from_json(file.text(name, kEstimateParameters).value_or("{}"));
-    estimated.source = file.text(name, kEstimateSource).value_or("");
-    estimated.version = file.text(name, kEstimateVersion).value_or("");
-    return estimated;
-  }
-  return std::nullopt;
-}
-
 void tell_unused_depth(const ArchiveTruth& depth, bool has_disparity, ConventionReport& report) {
   if (depth.unused_depth.empty()) return;
   if (!has_disparity) {
@@ -430,7 +414,9 @@ class ArchiveReading {
       infos_ = add_maps_named_after(path_, options_, parts_, {account_, report_}, progress);
       return;
     }
-    truth.estimated = read_estimated(file_);
+    for (const char* name : {"GT_DEPTH", "GT_DEPTH_FOREGROUND"}) {
+      if (!truth.estimated && file_.has_numbers(name)) truth.estimated = estimated_in(file_, name);
+    }
     if (!truth.estimated || !options_.needs_truth) return;
     report_.warnings.push_back(
         fmt::format(finding_text("truth.estimated"), estimated_text(*truth.estimated)));

@@ -375,7 +375,14 @@ class SingleReading {
       arrange_list(file_.path(), options_, parts_, chosen_.reason, progress.part(0.5, 1), stored);
     }
     settle_disparity(parts_.samples, maps, parts_.truth.field, report_);
-    if (!parts_.truth.field.empty()) note_truth_file(file_, maps.disparity_name, report_);
+    if (!parts_.truth.field.empty()) {
+      note_truth_file(file_, maps.disparity_name, report_);
+      parts_.truth.estimated = file_.estimated(maps.disparity_name);
+    }
+    if (parts_.truth.estimated) {
+      report_.warnings.push_back(
+          fmt::format(finding_text("truth.estimated"), estimated_text(*parts_.truth.estimated)));
+    }
     report_form(file_, entry_, chosen_, report_);
     parts_.files = std::move(maps.uses);
     parts_.files.insert(parts_.files.begin(), {"light field", 1, entry_.name, true});

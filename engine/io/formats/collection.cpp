@@ -2,7 +2,6 @@
 #include "engine/io/formats/collection.h"
 
 #include "engine/core/error.h"
-#include "engine/core/hash.h"
 #include "engine/core/text.h"
 #include "engine/io/base/files.h"
 #include "engine/io/base/foreign_content.h"
@@ -10,6 +9,7 @@
 #include "engine/io/base/image_file.h"
 #include "engine/io/base/image_header.h"
 #include "engine/io/models/choose_layout.h"
+#include "engine/io/models/labels/color_table.h"
 #include "engine/io/models/labels/label_pictures.h"
 #include "engine/io/models/mat5.h"
 #include "engine/io/models/names/view_folders.h"
@@ -205,24 +205,9 @@ std::int64_t nanoseconds(fs::file_time_type time) {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(since_1970).count();
 }
 
-void add(Fnv1a& hash, const fs::path& path, std::uintmax_t bytes, std::int64_t time) {
-  hash.add(path.filename().string());
-  hash.add_word(bytes);
-  hash.add_word(static_cast<std::uint64_t>(time));
-}
-
-/// Sorts, and takes the fingerprint.
-void finish(FolderListing& listing) {
+void sort(FolderListing& listing) {
   std::ranges::sort(listing.files, {}, &ListedFile::path);
   std::ranges::sort(listing.folders);
-  Fnv1a hash;
-  for (const ListedFile& file : listing.files) add(hash, file.path, file.bytes, file.modified_ns);
-  for (const fs::path& folder : listing.folders) {
-    std::error_code error;
-    const auto time = fs::last_write_time(folder, error);
-    add(hash, folder, 0, error ? 0 : nanoseconds(time));
-  }
-  listing.fingerprint = hash.value();
 }
 
 void add_file(FolderListing& listing, const fs::directory_entry& entry) {
@@ -246,14 +231,13 @@ FolderListing list_folder(const fs::path& folder) {
       add_file(listing, entry);
     }
   }
-  finish(listing);
+  sort(listing);
   return listing;
 }
 
 FolderListing list_file(const fs::path& file) {
   FolderListing listing{.folder = file.parent_path(), .files = {}, .folders = {}};
   add_file(listing, fs::directory_entry(file));
-  finish(listing);
   return listing;
 }
 
@@ -301,11 +285,7 @@ std::optional<ListedResult> result_in(const fs::path& path) {
 }
 
 CollectionEntry entry_at(const fs::path& path, const FolderListing& files) {
-  CollectionEntry entry{.path = path,
-                        .name = scene_name(path),
-                        .reader = {},
-                        .probe = {},
-                        .fingerprint = files.fingerprint};
+  CollectionEntry entry{.path = path, .name = scene_name(path), .reader = {}, .probe = {}};
   for (const ListedFile& file : files.files) {
     entry.bytes += file.bytes;
     entry.modified = std::max(entry.modified, file.modified_ns / 1'000'000'000);
@@ -385,14 +365,9 @@ void add_array_entries(const FolderListing& listing, FolderRecord& record) {
 CollectionEntry folder_entry(const FolderListing& listing, const FoundReader& found) {
   CollectionEntry entry = entry_at(listing.folder, listing);
   if (const fs::path views_inside = views_folder(listing.folder); views_inside != listing.folder) {
-    const FolderListing inside = list_folder(views_inside);
-    const CollectionEntry views = entry_at(views_inside, inside);
+    const CollectionEntry views = entry_at(views_inside, list_folder(views_inside));
     entry.bytes += views.bytes;
     entry.modified = std::max(entry.modified, views.modified);
-    Fnv1a both;
-    both.add_word(listing.fingerprint);
-    both.add_word(inside.fingerprint);
-    entry.fingerprint = both.value();
   }
   probe(found, entry);
   return entry;
@@ -420,6 +395,14 @@ FolderListing without_own_pictures(FolderListing listing) {
 std::size_t image_count(const FolderListing& listing) {
   return static_cast<std::size_t>(std::ranges::count_if(
       listing.files, [](const ListedFile& file) { return is_image_name(file.path); }));
+}
+
+/// Of labels in the form of VOC, as `write_label_folder` and CVAT write them: its pictures are
+/// drawn labels, and copies of views.
+bool is_label_export(const FolderListing& listing) {
+  return listing.files.size() == 1 && listing.files.front().path.filename() == kLabelMap &&
+         std::ranges::find(listing.folders, listing.folder / "SegmentationClass") !=
+             listing.folders.end();
 }
 
 /// Any folder of pictures may be taken for a grid of views; but not one whose views lie in several
@@ -473,6 +456,10 @@ std::optional<CollectionEntry> scan_file(const fs::path& file) {
 
 FolderRecord scan_folder(const FolderListing& listing) {
   FolderRecord record;
+  if (is_label_export(listing)) {
+    record.descends = false;
+    return record;
+  }
   for (const ListedFile& file : listing.files) {
     if (auto result = result_in(file.path)) record.results.push_back(std::move(*result));
   }

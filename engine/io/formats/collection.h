@@ -29,9 +29,7 @@ struct CollectionEntry {
   std::vector<ListedResult> results{};
   std::uintmax_t bytes = 0;   ///< Of the file, or of the files of its folder.
   std::int64_t modified = 0;  ///< Seconds since 1970, of the newest of these.
-  std::uint64_t fingerprint =
-      0;                  ///< Of names, sizes and times of these: another one, another scene.
-  std::string problem{};  ///< Why it cannot be opened: a sentence; empty = it can.
+  std::string problem{};      ///< Why it cannot be opened: a sentence; empty = it can.
 };
 
 /// Content of one folder, without its subfolders.
@@ -69,7 +67,6 @@ struct FolderListing {
   std::filesystem::path folder;
   std::vector<ListedFile> files;  ///< Regular ones.
   std::vector<std::filesystem::path> folders;
-  std::uint64_t fingerprint = 0;  ///< Of names, sizes and times of all this.
 };
 
 /// Lists a folder. Throws filesystem_error if it cannot be read.
@@ -80,8 +77,8 @@ struct FolderListing {
 
 /// Finds the light fields of a folder with the table of readers (reader.h): the folder itself if it
 /// is a scene folder, else each of its files that is a light field. Pictures that this program made
-/// (is_own_picture) are none. Files that cannot be opened
-/// become entries with a problem. Reads headers only.
+/// (is_own_picture) are none, nor are its exports of labels. Files that cannot be opened become
+/// entries with a problem. Reads headers only.
 [[nodiscard]] FolderRecord scan_folder(const FolderListing& listing);
 
 /// Light field that a file is by itself; none if it is a part of one, or none at all.

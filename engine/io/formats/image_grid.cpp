@@ -167,7 +167,6 @@ bool is_linear_format(const fs::path& path) {
   return suffix == ".exr" || suffix == ".hdr";
 }
 
-
 // Reads a grid of images step by step.
 class GridReading {
  public:

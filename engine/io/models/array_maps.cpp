@@ -166,10 +166,9 @@ void use_masks(const NamedMask& of_one, NamedMask& of_all, ArrayMaps& maps) {
     if (!text.empty()) maps.notes.push_back(text);
     if (named != &of_one || mask.size() != field.disparity.size()) continue;
     field.require_mask();
-    std::transform(mask.data(), mask.data() + mask.size(), field.valid.data(), field.valid.data(),
-                   [](std::uint8_t a, std::uint8_t b) {
-                     return static_cast<std::uint8_t>(a != 0 && b != 0);
-                   });
+    std::transform(
+        mask.data(), mask.data() + mask.size(), field.valid.data(), field.valid.data(),
+        [](std::uint8_t a, std::uint8_t b) { return static_cast<std::uint8_t>(a != 0 && b != 0); });
   }
   maps.valid = std::move(of_all.mask);
 }

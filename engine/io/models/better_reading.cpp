@@ -39,7 +39,7 @@ constexpr double kFarBeyond = 0.5;
 constexpr double kFarFromTruth = 4;
 constexpr float kUsualMissing[] = {0, -1};
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-constexpr int kRowStride = 4;     ///< Of the rows that are warped.
+constexpr int kRowStride = 4;  ///< Of the rows that are warped.
 
 /// Integers that stand for fractions of a pixel: decimal, and fixed-point numbers of matchers. And
 /// maps of half or twice the resolution that were resized with their values as they were.

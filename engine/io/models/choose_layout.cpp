@@ -119,6 +119,30 @@ std::optional<ArrayLayout> layout_with_motion(const ArrayFile& file, const Array
   return found;
 }
 
+/// Of a grid of grey views and a list of colored ones, whose channels are the rows or columns of
+/// that grid: the grid if there is motion along both of its axes, the list if there is motion along
+/// the other one alone. Nothing if that does not tell.
+std::optional<ArrayLayout> grid_or_list(const ArrayFile& file, const ArrayEntry& entry,
+                                        const std::vector<ArrayLayout>& layouts) {
+  if (layouts.size() != 2) return std::nullopt;
+  const bool is_list_first = layouts[0].has('n');
+  const ArrayLayout& list = layouts[is_list_first ? 0 : 1];
+  const ArrayLayout& grid = layouts[is_list_first ? 1 : 0];
+  const std::size_t channels = list.axes.find('c');
+  const bool is_grey = grid.length('c') == 1;
+  if (!list.has('n') || grid.has('n') || !is_grey || channels == std::string::npos) {
+    return std::nullopt;
+  }
+  const char letter = grid.axes[channels];
+  if (letter != 'v' && letter != 'u') return std::nullopt;
+  const ViewAxes axes = measure_parallax(*file.open(entry), grid);
+  const AxisEvidence& of_channels = letter == 'v' ? axes.along_v : axes.along_u;
+  const AxisEvidence& of_views = letter == 'v' ? axes.along_u : axes.along_v;
+  if (!of_views.is_decided()) return std::nullopt;
+  if (of_channels.is_decided()) return grid;
+  return are_rather_channels(of_channels, of_views) ? std::optional(list) : std::nullopt;
+}
+
 }  // namespace
 
 bool can_be_light_field(const ArrayEntry& entry) {
@@ -206,6 +230,9 @@ ChosenLayout choose_layout(const ArrayFile& file, const ArrayEntry& entry,
   }
   if (auto layout = layout_with_motion(file, entry, layouts)) {
     return {std::move(*layout), "by shape and motion between views", {}};
+  }
+  if (auto layout = grid_or_list(file, entry, layouts)) {
+    return {std::move(*layout), "by shape and motion between views, not between channels", {}};
   }
   if (auto layout = list_by_motion(file, entry, layouts)) {
     return {std::move(*layout), "by shape and the likeness of views", {}};

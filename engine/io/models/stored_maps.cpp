@@ -338,20 +338,26 @@ template void write_maps(Hdf5Output&, const std::string&, const MapGeometry&, co
 template void write_maps(Hdf5Output&, const std::string&, const MapGeometry&, const std::string&,
                          const Progress&, const std::function<const float*(ViewIndex)>&);
 
+Image<float> marked_map(const DisparityView& map) {
+  Image<float> marked(map.disparity.height, map.disparity.width);
+  for (int y = 0; y < marked.height(); ++y) {
+    for (int x = 0; x < marked.width(); ++x) {
+      marked.at(y, x) =
+          map.is_valid(y, x) ? map.disparity.at(y, x) : std::numeric_limits<float>::quiet_NaN();
+    }
+  }
+  return marked;
+}
+
 void write_disparity(Hdf5Output& file, const std::string& name, const DisparityField& field,
-                     const Progress& progress) {
-  std::vector<float> marked;
-  write_maps<float>(file, name, geometry_of(field.disparity), "px per view step", progress,
-                    [&](ViewIndex view) -> const float* {
-                      const auto disparity = field.disparity.view(view);
-                      if (field.valid.empty()) return disparity.data;
-                      const auto valid = field.valid.view(view);
-                      marked.assign(disparity.data, disparity.data + disparity.size());
-                      for (std::size_t i = 0; i < marked.size(); ++i) {
-                        if (valid.data[i] == 0) marked[i] = std::numeric_limits<float>::quiet_NaN();
-                      }
-                      return marked.data();
-                    });
+                     const MapGeometry& maps, const Progress& progress) {
+  Image<float> marked;
+  write_maps<float>(file, name, maps, "px per view step", progress, [&](ViewIndex view) {
+    marked = Image<float>(maps.height, maps.width);
+    std::ranges::fill(marked, std::numeric_limits<float>::quiet_NaN());
+    if (field.contains(view)) marked = marked_map(field.view(view));
+    return marked.data();
+  });
 }
 
 }  // namespace episcope::io

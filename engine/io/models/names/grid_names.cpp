@@ -284,6 +284,48 @@ ListLayout layout_of_list(const fs::path& folder, const ViewFiles& list, const O
   return layout;
 }
 
+ViewFiles middle_line(const ViewFiles& views, bool is_row) {
+  const GridShape grid = views.grid;
+  const ViewIndex center = grid.center();
+  ViewFiles line{.grid = {1, is_row ? grid.u : grid.v}, .files = {}};
+  line.orientation = views.orientation;
+  for (int i = 0; i < line.grid.u; ++i) {
+    const int place = is_row ? center.v * grid.u + i : i * grid.u + center.u;
+    line.files.push_back(views.files[static_cast<std::size_t>(place)]);
+  }
+  return line;
+}
+
+bool has_divisors(int count) {
+  for (int d = 2; d * d <= count; ++d) {
+    if (count % d == 0) return true;
+  }
+  return false;
+}
+
+/// Numbers of a frame and of a camera on a grid look like numbers of rows and columns. But
+/// views of a row do not lie on a grid themselves: then the other number counts frames.
+/// Looks where there are not as many rows as columns.
+void refuse_frames(const fs::path& folder, const NamedGrid& named, const Progress& progress) {
+  const GridShape grid = named.placed.views.grid;
+  if (grid.v == grid.u || !named.placed.positions.empty()) return;
+  for (const bool is_row : {true, false}) {
+    const ViewFiles line = middle_line(named.placed.views, is_row);
+    if (!has_divisors(line.grid.count())) continue;
+    const ListLayout layout = look_for_layout(line, progress);
+    if (!layout.is_decided || std::min(layout.grid.v, layout.grid.u) == 1) continue;
+    throw IoError(
+        folder,
+        fmt::format("by the numbers in the names, {}, these are {} rows of {} views, but the views "
+                    "of a {} lie on a grid of {} themselves ({}): the other number rather counts "
+                    "frames. Open one frame by --pattern with its number and {{index}}, as of {}, "
+                    "or all by --pattern with {{row}} and {{col}}",
+                    named.pattern, grid.v, grid.u, is_row ? "row" : "column",
+                    grid_text(layout.grid), layout.evidence,
+                    line.files.front().filename().string()));
+  }
+}
+
 /// Where the views leave it open, poses that are none of a light field decide that it is none.
 ListLayout layout_by_views(const fs::path& folder, const NamedGrid& named,
                            const OpenOptions& options, const Progress& progress) {
@@ -388,6 +430,8 @@ std::string settle_grid(const fs::path& folder, NamedGrid& named, const OpenOpti
   PlacedViews& placed = named.placed;
   if (named.poses.are_used()) return named.poses.evidence;
   if (!placed.is_list) {
+    const bool is_said = !options.pattern.empty() || !options.grid.empty() || options.snake;
+    if (!is_said && !placed.views.part) refuse_frames(folder, named, progress);
     const auto given = given_grid(options);
     const auto& part = placed.views.part;
     if (given && !(*given == placed.views.grid) && !(part && *given == part->whole)) {

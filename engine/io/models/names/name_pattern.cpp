@@ -105,9 +105,10 @@ constexpr std::string_view kCharacter = "[^\x80-\xbf][\x80-\xbf]*";  ///< Of UTF
 /// Adds the field of a pattern that begins there, and returns where it ends.
 std::size_t add_field(const std::string& pattern, std::size_t begin, Groups& groups) {
   const std::size_t end = pattern.find('}', begin);
-  const auto field = end == std::string::npos
-                         ? std::nullopt
-                         : field_named(std::string_view(pattern).substr(begin + 1, end - begin - 1));
+  const auto field =
+      end == std::string::npos
+          ? std::nullopt
+          : field_named(std::string_view(pattern).substr(begin + 1, end - begin - 1));
   if (!field) {
     throw InvalidInput("the pattern '" + pattern + "' has an unknown field '" +
                        pattern.substr(begin, end == std::string::npos ? end : end - begin + 1) +

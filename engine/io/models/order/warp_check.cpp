@@ -441,7 +441,8 @@ auto times(double factor) {
   return [=](const MapPoint& point) { return factor * point.disparity; };
 }
 
-/// The neighbors of a view along both axes, each in the order that suits a factor of the map better.
+/// The neighbors of a view along both axes, each in the order that suits a factor of the map
+/// better.
 class Neighbors {
  public:
   Neighbors(const LightField::Samples& samples, ViewIndex at) : here_(picture_of(samples, at)) {
@@ -465,8 +466,8 @@ class Neighbors {
     Squares squares;
     for (const auto& pairs : axes_) {
       const auto ordered = [&](double factor) {
-        const bool is_better = mean_error(pairs, points, times(factor)) <=
-                               mean_error(pairs, points, times(-factor));
+        const bool is_better =
+            mean_error(pairs, points, times(factor)) <= mean_error(pairs, points, times(-factor));
         return times(is_better ? factor : -factor);
       };
       for (const WarpedPair& pair : pairs) {

@@ -88,10 +88,10 @@ struct BetterUnit {
   double error_as_taken = 0;  ///< and as the map is taken: 40 if out of the views.
 };
 
-/// Looks for a factor, up to 64 times as large or small, that explains the neighbors of `at` clearly
-/// better than the map times `factor`, and than no warping: with less error by 15 %, and by more
-/// than chance over squares of 16×16 px. Each axis counts in its better order, brightness as it is.
-/// Samples about 10,000 pixels.
+/// Looks for a factor, up to 64 times as large or small, that explains the neighbors of `at`
+/// clearly better than the map times `factor`, and than no warping: with less error by 15 %, and by
+/// more than chance over squares of 16×16 px. Each axis counts in its better order, brightness as
+/// it is. Samples about 10,000 pixels.
 [[nodiscard]] std::optional<BetterUnit> find_better_unit(const LightField::Samples& samples,
                                                          ViewIndex at, const DisparityView& map,
                                                          double factor);

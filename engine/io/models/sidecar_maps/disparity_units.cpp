@@ -331,7 +331,7 @@ constexpr double kClearlyBetterNext = 0.75;
 /// next value is often the one of the wrong side.
 constexpr double kHardlyWorseNext = 1.2;
 constexpr double kContradicted = 2.5;
-constexpr float kLargestNextError = 40;   ///< Grey levels; what is hidden counts no more.
+constexpr float kLargestNextError = 40;  ///< Grey levels; what is hidden counts no more.
 
 void mark(DisparityField& field, float value) {
   field.require_mask();
@@ -437,7 +437,8 @@ double error_in_order(const LightField::Samples& samples, ViewIndex at, const Di
   if (pixels < count / 2) return kLargestNextError;
   const double u = known.reversed_u ? errors.u.reversed : errors.u.forward;
   const double v = known.reversed_v ? errors.v.reversed : errors.v.forward;
-  const double sum = u * static_cast<double>(errors.u.pixels) + v * static_cast<double>(errors.v.pixels);
+  const double sum =
+      u * static_cast<double>(errors.u.pixels) + v * static_cast<double>(errors.v.pixels);
   return std::min<double>(kLargestNextError, sum / pixels);
 }
 

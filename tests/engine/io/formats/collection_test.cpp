@@ -79,14 +79,6 @@ class CollectionTest : public QObject {
     fs::create_directories(root());
   }
 
-  void scenesNamedLikeFoldersOfViews_areScenes() {
-    for (const char* name : {"lf", "box"}) {
-      write_grid(name);
-      write_text(root() / name / "gt_disparity.pfm", "");
-    }
-    QCOMPARE(summary(), (QStringList{"box:image_grid", "lf:image_grid"}));
-  }
-
   void everyForm_isFoundAtAnyDepthAndDescribedByItsHeaders() {
     write_archive("a/deep/down/one");
     io::write_benchmark_folder(made("b"), scene_, Progress(1));
@@ -170,6 +162,15 @@ class CollectionTest : public QObject {
     write_grid("grid");
 
     QCOMPARE(summary(), (QStringList{"grid:image_grid", "scene:archive"}));
+  }
+
+  void exportsOfLabels_areNoLightField() {
+    write_archive("scene");
+    write_grid("out/SegmentationClass");
+    write_grid("out/JPEGImages");
+    write_text(root() / "out" / "labelmap.txt", "# label:color_rgb:parts:actions\n");
+
+    QCOMPARE(summary(), QStringList{"scene:archive"});
   }
 
   void drawingsOfLabels_areNoLightField() {
