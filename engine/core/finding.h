@@ -156,6 +156,10 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
      "Float samples of the views reach up to {:.3g} with a median of {:.2g}: they are taken as "
      "linear, and divided by {:.4g} so that 99.9 % lie in 0 … 1.",
      "Linear samples, divided by %3"},
+    {"samples.noise",
+     "{:.2g} % of the float samples of the views lie clearly below 0, down to {:.2g}: they are "
+     "taken as noise around black. --levels -1,1 would say otherwise.",
+     "%1 % of the samples are negative"},
     {"samples.divided",
      "Float samples of the views should lie in 0 … 1, but reach up to {}; they are divided by {}.",
      "Samples are divided by %2"},
@@ -328,6 +332,10 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
      "{} with {}×{} px lie on their side beside views of {}×{} px: rows and columns were "
      "exchanged.",
      "%1 were turned."},
+    {"map.mask_turned",
+     "The disparity holds values only where its mask is 0: the mask is taken for one of missing "
+     "values, as NumPy writes them.",
+     "The mask marks missing values."},
     {"map.equal_names",
      "{} is taken for true and {} is not, though their names claim as much; rename or remove one "
      "of "

@@ -2204,6 +2204,10 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>%1 % der Pixel sind dunkel und zählen nicht.</translation>
     </message>
     <message>
+        <source>%1 % of the samples are negative</source>
+        <translation>%1 % der Samples sind negativ</translation>
+    </message>
+    <message>
         <source>%1 % of the samples clipped</source>
         <translation>%1 % der Samples abgeschnitten</translation>
     </message>
@@ -3274,6 +3278,14 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>decoded from %1: %2 lenses of %3 px, turned by %4°, views %5 px apart</source>
         <translation>dekodiert aus %1: Linsen von %3 px (%2), um %4° gedreht, Ansichten im Abstand von %5 px</translation>
+    </message>
+    <message>
+        <source>The disparity holds values only where its mask is 0: the mask is taken for one of missing values, as NumPy writes them.</source>
+        <translation>Die Disparität hat nur dort Werte, wo ihre Maske 0 ist: Die Maske gilt als Maske fehlender Werte, wie NumPy sie schreibt.</translation>
+    </message>
+    <message>
+        <source>The mask marks missing values.</source>
+        <translation>Die Maske markiert fehlende Werte.</translation>
     </message>
     <message>
         <source>%1 is named like a map and not used: it has %2, but maps of one view or of all %3×%4 views with %5×%6 px are expected.</source>

@@ -183,11 +183,16 @@ std::string_view separators_of(std::string_view line) {
   return kBlanks;
 }
 
+std::string_view unquoted(std::string_view cell) {
+  const bool is_quoted = cell.size() > 1 && cell.front() == '"' && cell.back() == '"';
+  return is_quoted ? cell.substr(1, cell.size() - 2) : cell;
+}
+
 std::vector<std::string_view> cells_of(std::string_view line, std::string_view separators) {
   std::vector<std::string_view> cells;
   for (;;) {
     const std::size_t end = line.find_first_of(separators);
-    cells.push_back(trimmed(line.substr(0, end)));
+    cells.push_back(unquoted(trimmed(line.substr(0, end))));
     if (end == std::string_view::npos) return cells;
     // Several spaces are one.
     const std::size_t next = separators == kBlanks ? line.find_first_not_of(kBlanks, end) : end + 1;
@@ -207,6 +212,39 @@ std::optional<float> value_of(std::string_view cell) {
   return number ? std::optional(static_cast<float>(*number)) : std::nullopt;
 }
 
+/// Whether cells behind the first are 0, 1, 2, … or 1, 2, 3, ….
+bool count_up(const std::vector<std::string_view>& cells) {
+  const auto first = value_of(cells[1]);
+  for (std::size_t i = 1; i < cells.size(); ++i) {
+    if (value_of(cells[i]) != *first + static_cast<float>(i - 1)) return false;
+  }
+  return *first == 0 || *first == 1;
+}
+
+/// What a first line of a table says of its columns. Numbers alone are a row of the map.
+struct ColumnNames {
+  bool are_there = false;  ///< It is a line of names, or numbers columns behind the first.
+  bool has_index = false;  ///< The first column numbers or names the rows.
+};
+
+ColumnNames column_names(const std::vector<std::string_view>& cells) {
+  const bool begins_unlike = cells.front().empty() || !value_of(cells.front());
+  if (cells.size() < kFewestNumbers || !begins_unlike) return {};
+  const bool are_words = std::none_of(cells.begin() + 1, cells.end(),
+                                      [](auto cell) { return value_of(cell).has_value(); });
+  const bool are_numbered = !are_words && value_of(cells[1]) && count_up(cells);
+  return {are_words || are_numbered, are_numbered || (are_words && cells.front().empty())};
+}
+
+/// Whether the first column of a table numbers its rows from 0 or 1.
+bool begins_with_index(const std::vector<float>& values, std::size_t width, std::size_t height) {
+  bool counts = width > 1 && (values.front() == 0 || values.front() == 1);
+  for (std::size_t y = 0; counts && y < height; ++y) {
+    counts = values[y * width] == values.front() + static_cast<float>(y);
+  }
+  return counts;
+}
+
 bool is_left_out(std::string_view line) {
   return line.empty() || line.front() == '#' || line.front() == '%';
 }
@@ -219,7 +257,7 @@ std::size_t append_row(const std::filesystem::path& path, std::string_view line,
     const auto value = value_of(cell);
     if (!value) {
       throw IoError(path, fmt::format("line {} holds '{}', which is no number; a map is numbers "
-                                      "alone, without names of rows and columns",
+                                      "alone, or a table whose first line names the columns",
                                       number, cell.substr(0, 40)));
     }
     values.push_back(*value);
@@ -240,12 +278,13 @@ bool is_text_map(const std::filesystem::path& path) {
   std::string begin(kLongestLine, '\0');
   in.read(begin.data(), static_cast<std::streamsize>(begin.size()));
   begin.resize(static_cast<std::size_t>(in.gcount()));
-  for (std::size_t at = 0; at < begin.size();) {
+  for (std::size_t at = 0, lines = 0; at < begin.size();) {
     const std::size_t end = std::min(begin.find('\n', at), begin.size());
     const std::string_view line = trimmed(std::string_view(begin).substr(at, end - at));
     at = end + 1;
     if (is_left_out(line)) continue;
     const auto cells = cells_of(line, separators_of(line));
+    if (lines++ == 0 && column_names(cells).are_there) continue;
     return cells.size() >= kFewestNumbers && std::ranges::all_of(cells, [](std::string_view cell) {
              return value_of(cell).has_value();
            });
@@ -260,7 +299,8 @@ Image<float> read_text_map(const std::filesystem::path& path) {
   }
   std::ifstream in(path);
   std::vector<float> values;
-  std::size_t width = 0, height = 0, number = 0;
+  std::size_t width = 0, height = 0, number = 0, number_of_first = 0;
+  ColumnNames names;
   for (std::string line; std::getline(in, line);) {
     ++number;
     const std::string_view text = trimmed(line);
@@ -269,6 +309,11 @@ Image<float> read_text_map(const std::filesystem::path& path) {
       throw IoError(path, fmt::format("line {} is longer than a row of numbers can be; choose "
                                       "another file",
                                       number));
+    }
+    if (number_of_first == 0) {
+      number_of_first = number;
+      names = column_names(cells_of(text, separators_of(text)));
+      if (names.are_there) continue;
     }
     const std::size_t count = append_row(path, text, number, values);
     if (height++ == 0) width = count;
@@ -279,8 +324,13 @@ Image<float> read_text_map(const std::filesystem::path& path) {
     }
   }
   if (values.empty()) throw IoError(path, "holds no rows of numbers; export the map again");
-  Image<float> map(static_cast<int>(height), static_cast<int>(width));
-  std::ranges::copy(values, map.data());
+  const bool has_index =
+      names.are_there && (names.has_index || begins_with_index(values, width, height));
+  const std::size_t left = has_index && width > 1 ? 1 : 0;
+  Image<float> map(static_cast<int>(height), static_cast<int>(width - left));
+  for (std::size_t y = 0; y < height; ++y) {
+    std::copy_n(values.data() + y * width + left, width - left, map.row(static_cast<int>(y)));
+  }
   return map;
 }
 

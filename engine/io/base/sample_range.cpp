@@ -131,6 +131,11 @@ constexpr float kMaxByteSample = 255.5F;
 constexpr float kClearlyNegative = 0.02F;
 constexpr double kFewestNegative = 0.01;
 constexpr float kMaxSignedSample = 1.01F;
+// Noise around black reaches less far below 0 than this part of white, and where a sample is
+// clearly negative, the next one of its channel is so too in less than this share of cases; of dark
+// pictures nearly always.
+constexpr float kFarBelow = 0.5F;
+constexpr double kAlone = 0.75;
 constexpr float kMaxWordSample = 65535.5F;
 constexpr double kMostlyWhole = 0.95;
 // Of samples of 8 or 16 bits: share of the range that half of them exceed.
@@ -146,7 +151,8 @@ struct FloatSpread {
   float largest = 0;
   float smallest = 0;
   double negative_share = 0;
-  double whole_share = 0;  ///< Of the samples that are not 0.
+  double beside_negative = 0;  ///< Of the clearly negative ones, the share beside another.
+  double whole_share = 0;      ///< Of the samples that are not 0.
   float median = 0;
   float shadow = 0;     ///< The quantile of 0.1 %,
   float highlight = 0;  ///< and of 99.9 %.
@@ -172,21 +178,32 @@ FloatSpread spread_of(const ViewStack<float>& stack, float smallest, float large
   std::vector<float> values;
   std::size_t whole = 0;
   std::size_t below = 0;
+  std::size_t beside = 0;
+  const auto channels = static_cast<std::size_t>(stack.channels());
   for (std::size_t i = 0; i < stack.size(); i += step) {
     const float value = stack.data()[i];
     if (!std::isfinite(value) || value == 0) continue;
     values.push_back(value);
     whole += value == std::round(value) ? 1 : 0;
-    below += value < negative ? 1 : 0;
+    if (!(value < negative)) continue;
+    ++below;
+    const bool has_next = i + channels < stack.size();
+    beside += has_next && stack.data()[i + channels] < negative ? 1 : 0;
   }
   FloatSpread spread{.largest = largest, .smallest = smallest};
   if (values.empty()) return spread;
   spread.whole_share = static_cast<double>(whole) / static_cast<double>(values.size());
   spread.negative_share = static_cast<double>(below) / static_cast<double>(values.size());
+  if (below > 0) spread.beside_negative = static_cast<double>(beside) / static_cast<double>(below);
   spread.median = quantile(values, 0.5);
   spread.shadow = quantile(values, 0.001);
   spread.highlight = quantile(values, 0.999);
   return spread;
+}
+
+/// Of views from which a dark frame was taken.
+bool is_noise_around_black(const FloatSpread& spread) {
+  return spread.shadow > -kFarBelow * spread.highlight && spread.beside_negative < kAlone;
 }
 
 /// So that `black` becomes 0 and `white` 1.
@@ -238,7 +255,11 @@ void scale_linear(ViewStack<float>& stack, const FloatSpread& spread, Convention
 // Samples that are not from 0 to 1 alone.
 void scale_by_spread(ViewStack<float>& stack, const FloatSpread& spread, ConventionReport& report) {
   const float largest = spread.largest;
-  if (spread.negative_share >= kFewestNegative) return scale_signed(stack, spread, report);
+  if (spread.negative_share >= kFewestNegative) {
+    if (!is_noise_around_black(spread)) return scale_signed(stack, spread, report);
+    report.warnings.push_back(
+        fmt::format(finding_text("samples.noise"), 100 * spread.negative_share, spread.smallest));
+  }
   if (largest <= kMaxUnitSample) return;
   const bool is_whole = spread.whole_share >= kMostlyWhole;
   const int divisor = is_whole ? full_scale(largest) : largest > kMaxByteSample ? 65535 : 255;
@@ -255,7 +276,8 @@ bool can_be_disparity(const ViewStack<float>& stack, const FloatSpread& spread) 
   if (stack.channels() > 1 || stack.grid().count() < 2) return false;
   if (std::max(spread.largest, -spread.smallest) > kLargestDisparity) return false;
   if (spread.whole_share >= kMostlyWhole) return false;
-  return spread.negative_share >= kFewestNegative || spread.largest > kMaxUnitSample;
+  const bool is_signed = spread.negative_share >= kFewestNegative && !is_noise_around_black(spread);
+  return is_signed || spread.largest > kMaxUnitSample;
 }
 
 }  // namespace

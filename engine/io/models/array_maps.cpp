@@ -131,6 +131,28 @@ bool may_be_disparity(const ArrayEntry& entry, MapKind kind) {
   return kind == MapKind::Disparity || (kind == MapKind::Labels && is_float(entry.type));
 }
 
+/// Whether only pixels where the mask is 0 hold values, of which there are several.
+bool marks_missing(const ViewStack<std::uint8_t>& mask, const DisparityField& field) {
+  std::array<std::pair<float, float>, 2> range;
+  range.fill({std::numeric_limits<float>::max(), std::numeric_limits<float>::lowest()});
+  for (std::size_t i = 0; i < mask.size(); ++i) {
+    const float value = field.disparity.data()[i];
+    if (!field.valid.empty() && field.valid.data()[i] == 0) continue;
+    auto& [least, most] = range[mask.data()[i] != 0 ? 1 : 0];
+    least = std::min(least, value);
+    most = std::max(most, value);
+  }
+  return range[1].first >= range[1].second && range[0].first < range[0].second;
+}
+
+void mask_truth(const ViewStack<std::uint8_t>& mask, bool is_turned, DisparityField& field) {
+  field.require_mask();
+  std::transform(mask.data(), mask.data() + mask.size(), field.valid.data(), field.valid.data(),
+                 [&](std::uint8_t a, std::uint8_t b) {
+                   return static_cast<std::uint8_t>((a != 0) != is_turned && b != 0);
+                 });
+}
+
 /// A mask and the array that holds it.
 struct NamedMask {
   ViewStack<std::uint8_t> mask;
@@ -156,19 +178,22 @@ std::string lost_by(const NamedMask& named, const DisparityField& field) {
   return masked_text(named.name, lost, known);
 }
 
-/// Pixels where a mask of the same single view is 0 hold no disparity.
+/// Pixels where a mask of the same single view is 0 hold no disparity. A mask of values that are
+/// missing, as NumPy writes them, tells nothing of the views either.
 void use_masks(const NamedMask& of_one, NamedMask& of_all, ArrayMaps& maps) {
   DisparityField& field = maps.truth.field;
   for (const NamedMask* named : {&of_one, static_cast<const NamedMask*>(&of_all)}) {
     const ViewStack<std::uint8_t>& mask = named->mask;
     if (mask.empty() || field.empty()) continue;
-    const std::string text = lost_by(*named, field);
+    const bool is_alike = mask.size() == field.disparity.size();
+    const bool is_turned = is_alike && marks_missing(mask, field);
+    const std::string text = is_turned ? std::string() : lost_by(*named, field);
     if (!text.empty()) maps.notes.push_back(text);
-    if (named != &of_one || mask.size() != field.disparity.size()) continue;
-    field.require_mask();
-    std::transform(
-        mask.data(), mask.data() + mask.size(), field.valid.data(), field.valid.data(),
-        [](std::uint8_t a, std::uint8_t b) { return static_cast<std::uint8_t>(a != 0 && b != 0); });
+    if (!is_alike) continue;
+    if (is_turned || named == &of_one) mask_truth(mask, is_turned, field);
+    if (!is_turned) continue;
+    maps.notes.emplace_back(finding_text("map.mask_turned"));
+    if (named != &of_one) of_all.mask = {};
   }
   maps.valid = std::move(of_all.mask);
 }

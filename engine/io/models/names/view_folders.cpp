@@ -53,6 +53,34 @@ bool holds_grid(const fs::path& folder) {
   }
 }
 
+/// Whether a folder of views holds disparity, depth or labels as well.
+bool holds_maps(const fs::path& folder) {
+  std::error_code error;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    const auto kind = map_kind(it->path().stem().string());
+    const bool is_map =
+        kind == MapKind::Disparity || kind == MapKind::Depth || kind == MapKind::Labels;
+    std::error_code ignored;
+    if (is_map && it->is_regular_file(ignored)) return true;
+  }
+  return false;
+}
+
+/// Whether another folder beside that of views is a light field with maps of its own: then the
+/// folder around them holds several scenes.
+bool is_among_scenes(const fs::path& views) {
+  std::error_code error;
+  for (fs::directory_iterator it(views.parent_path(), error), end; !error && it != end;
+       it.increment(error)) {
+    const fs::path& other = it->path();
+    std::error_code ignored;
+    const bool may_be = it->is_directory(ignored) && other.filename() != views.filename() &&
+                        !other.filename().string().starts_with('.') && !is_beside_views(other);
+    if (may_be && holds_maps(other) && holds_grid(other)) return true;
+  }
+  return false;
+}
+
 /// The only folder inside that is named "viewpoints…", as PlenoptiCam names it beside refocused
 /// pictures; else the folder itself.
 fs::path viewpoints_folder(const fs::path& folder) {
@@ -96,11 +124,12 @@ fs::path named_views_folder(const fs::path& folder) {
     return is_folder_itself ? 0 : count_images(folder / name);
   };
   for (const char* name : {"lf", "views"}) {
-    if (images_inside(name) > 1) return folder / name;
+    if (images_inside(name) > 1 && !is_among_scenes(folder / name)) return folder / name;
   }
   for (const char* name : {"images", "rectified", "image", "rgb", "color"}) {
     const int inside = images_inside(name);
-    if (inside > 1 && inside > count_images(folder)) return folder / name;
+    const bool is_most = inside > 1 && inside > count_images(folder);
+    if (is_most && !is_among_scenes(folder / name)) return folder / name;
   }
   return viewpoints_folder(folder);
 }

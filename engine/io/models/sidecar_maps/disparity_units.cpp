@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -327,11 +328,17 @@ constexpr double kMostShare = 0.99;
 constexpr double kAboveNoise = 1.3;
 /// The next known values must leave at most this share of the error of the value,
 constexpr double kClearlyBetterNext = 0.75;
+constexpr double kSignificantNext =
+    2.5;                        ///< by so many standard deviations of chance, over squares
+constexpr int kNextSquare = 8;  ///< of so many px;
 /// or this one if the error of the value is so many times the error of the others: around edges the
 /// next value is often the one of the wrong side.
 constexpr double kHardlyWorseNext = 1.2;
 constexpr double kContradicted = 2.5;
-constexpr float kLargestNextError = 40;  ///< Grey levels; what is hidden counts no more.
+/// In both cases they must leave this share of the error of a value as far to the other side.
+constexpr double kBetterThanBeyond = 0.9;
+constexpr double kFewestDiffering = 0.1;  ///< px between the two: else neither is judged.
+constexpr float kLargestNextError = 40;   ///< Grey levels; what is hidden counts no more.
 
 void mark(DisparityField& field, float value) {
   field.require_mask();
@@ -350,12 +357,12 @@ std::ptrdiff_t count_of(const DisparityView& map, float value) {
   return count;
 }
 
-/// 1 where the map is valid and has the value, or another one, `[y][x]`.
-Image<std::uint8_t> valid_where(const DisparityView& map, float value, bool has_value) {
+/// 1 where the map is valid and has another value, `[y][x]`.
+Image<std::uint8_t> valid_without(const DisparityView& map, float value) {
   Image<std::uint8_t> valid(map.disparity.height, map.disparity.width);
   for (int y = 0; y < valid.height(); ++y) {
     for (int x = 0; x < valid.width(); ++x) {
-      valid.at(y, x) = map.is_valid(y, x) && (map.disparity.at(y, x) == value) == has_value ? 1 : 0;
+      valid.at(y, x) = map.is_valid(y, x) && map.disparity.at(y, x) != value ? 1 : 0;
     }
   }
   return valid;
@@ -413,33 +420,114 @@ Image<float> filled(const DisparityView& map, Image<std::uint8_t> known) {
   return values;
 }
 
+/// The view and those next to it, smoothed, in the order that `explanation` found.
+class NextViews {
+ public:
+  NextViews(const LightField::Samples& samples, ViewIndex at, const Explanation& explanation)
+      : here_(smoothed(grey_levels(samples, at))) {
+    for (const bool is_along_x : {true, false}) {
+      const bool is_u = is_along_x != explanation.is_transposed;
+      const bool is_reversed = is_along_x ? explanation.reversed_u : explanation.reversed_v;
+      for (const int step : {-1, 1}) {
+        const ViewIndex next = is_u ? ViewIndex{at.v, at.u + step} : ViewIndex{at.v + step, at.u};
+        if (!grid_of(samples).contains(next)) continue;
+        next_.push_back(
+            {smoothed(grey_levels(samples, next)), is_along_x, is_reversed ? -step : step});
+      }
+    }
+  }
+
+  /// Mean grey error of a pixel with this disparity along both axes.
+  [[nodiscard]] float error(PixelIndex at, double disparity) const {
+    const auto along_x = error_along(true, at, disparity);
+    const auto along_y = error_along(false, at, disparity);
+    if (along_x && along_y) return (*along_x + *along_y) / 2;
+    return along_x.value_or(along_y.value_or(0));
+  }
+
+ private:
+  struct Next {
+    Image<float> grey;
+    bool is_along_x;
+    int step;
+
+    /// Infinite outside of the picture.
+    [[nodiscard]] float grey_at(PixelIndex at, double disparity) const {
+      const double place = (is_along_x ? at.x : at.y) - step * disparity;
+      const int last = (is_along_x ? grey.width() : grey.height()) - 1;
+      if (!(place >= 0 && place <= last)) return std::numeric_limits<float>::infinity();
+      const int i = std::min(static_cast<int>(place), last - 1);
+      const float first = is_along_x ? grey.at(at.y, i) : grey.at(i, at.x);
+      const float second = is_along_x ? grey.at(at.y, i + 1) : grey.at(i + 1, at.x);
+      return first + static_cast<float>(place - i) * (second - first);
+    }
+  };
+
+  /// By the view that shows the pixel better, as edges hide it in the other; none without views.
+  [[nodiscard]] std::optional<float> error_along(bool is_along_x, PixelIndex at,
+                                                 double disparity) const {
+    std::optional<float> least;
+    for (const Next& next : next_) {
+      if (next.is_along_x != is_along_x) continue;
+      const float error = std::abs(here_.at(at.y, at.x) - next.grey_at(at, disparity));
+      least = std::min(least.value_or(kLargestNextError), error);
+    }
+    return least;
+  }
+
+  Image<float> here_;
+  std::vector<Next> next_;
+};
+
 /// What the views say of pixels with one value.
 struct ValueErrors {
   double stored = 0;  ///< Mean grey error with the value,
   double next = 0;    ///< with the nearest other value,
+  double beyond = 0;  ///< with one as far to the other side, which averages noise as much,
   double others = 0;  ///< and of the pixels with other values.
+  double score = 0;   ///< By how many standard deviations of chance `next` is better.
 
   [[nodiscard]] bool is_contradicted() const {
-    return (stored > kAboveNoise * others && next < kClearlyBetterNext * stored) ||
-           (stored > kContradicted * others && next < kHardlyWorseNext * stored);
+    if (next > kBetterThanBeyond * beyond) return false;
+    const bool is_clear = stored > kAboveNoise * others && next < kClearlyBetterNext * stored &&
+                          score > kSignificantNext;
+    return is_clear || (stored > kContradicted * others && next < kHardlyWorseNext * stored);
   }
 };
 
-/// Mean grey error in the order that `known` found; the largest if most of `count` pixels are led
-/// out of the picture.
-double error_in_order(const LightField::Samples& samples, ViewIndex at, const DisparityView& map,
-                      const UnknownValue& unknown, const Explanation& known, double count) {
-  const ScaledMap px = scaled(map, unknown.factor);
-  const WarpErrors errors = known.is_transposed
-                                ? warp_errors(transposed_cross(samples, at), {1, 1}, px.view())
-                                : warp_errors(samples, at, px.view());
-  const auto pixels = static_cast<double>(errors.u.pixels + errors.v.pixels);
-  if (pixels < count / 2) return kLargestNextError;
-  const double u = known.reversed_u ? errors.u.reversed : errors.u.forward;
-  const double v = known.reversed_v ? errors.v.reversed : errors.v.forward;
-  const double sum =
-      u * static_cast<double>(errors.u.pixels) + v * static_cast<double>(errors.v.pixels);
-  return std::min<double>(kLargestNextError, sum / pixels);
+ValueErrors compare_with_next(const NextViews& views, const DisparityView& map,
+                              const UnknownValue& unknown, const Image<float>& next) {
+  ValueErrors errors;
+  std::map<std::pair<int, int>, double> squares;
+  double count = 0, count_of_others = 0;
+  for (int y = 0; y < next.height(); ++y) {
+    for (int x = 0; x < next.width(); ++x) {
+      if (!map.is_valid(y, x)) continue;
+      const double stored_px = unknown.factor * map.disparity.at(y, x);
+      const double next_px = unknown.factor * next.at(y, x);
+      const double stored = views.error({y, x}, stored_px);
+      if (map.disparity.at(y, x) != unknown.value) {
+        errors.others += stored;
+        count_of_others += 1;
+      } else if (std::abs(stored_px - next_px) >= kFewestDiffering) {
+        const double other = views.error({y, x}, next_px);
+        errors.stored += stored;
+        errors.next += other;
+        errors.beyond += views.error({y, x}, 2 * stored_px - next_px);
+        count += 1;
+        squares[{y / kNextSquare, x / kNextSquare}] += stored - other;
+      }
+    }
+  }
+  if (count < kFewestUnknown) return {};
+  double sum_of_squares = 0;
+  for (const auto& [place, gain] : squares) sum_of_squares += gain * gain;
+  errors.score = (errors.stored - errors.next) / std::sqrt(std::max(sum_of_squares, 1e-9));
+  errors.stored /= count;
+  errors.next /= count;
+  errors.beyond /= count;
+  errors.others /= count_of_others;
+  return errors;
 }
 
 /// Marks pixels of exactly this value as invalid, in all views, if the nearest other values explain
@@ -452,15 +540,11 @@ std::string drop_unknown_value(const LightField::Samples& samples, ViewIndex at,
   const auto count = static_cast<double>(count_of(map, unknown.value));
   const auto all = static_cast<double>(map.disparity.size());
   if (count > kMostShare * all) return {};
-  Image<std::uint8_t> others = valid_where(map, unknown.value, false);
-  const Image<std::uint8_t> these = valid_where(map, unknown.value, true);
+  Image<std::uint8_t> others = valid_without(map, unknown.value);
   const Explanation known =
       explain_views(samples, at, {map.disparity, others.view()}, unknown.factor);
-  const Image<float> next = filled(map, std::move(others));
-  const auto error = [&](ImageView<const float> disparity) {
-    return error_in_order(samples, at, {disparity, these.view()}, unknown, known, count);
-  };
-  const ValueErrors errors{error(map.disparity), error(next.view()), known.error};
+  const NextViews views(samples, at, known);
+  const ValueErrors errors = compare_with_next(views, map, unknown, filled(map, std::move(others)));
   if (!errors.is_contradicted()) return {};
   mark(field, unknown.value);
   const bool leads_out = errors.stored >= kLargestNextError;
@@ -509,6 +593,10 @@ std::string doubt_of_unit(const LightField::Samples& samples, ViewIndex at, Name
                           const MapUnit& unit) {
   const auto better = find_better_unit(samples, at, values.field.view(at), unit.factor);
   if (!better) return {};
+  if (better->offset_px != 0) {
+    return fmt::format(finding_text("units.offset"), values.name, unit.text, better->error_as_taken,
+                       better->factor, better->offset_px, better->error);
+  }
   return fmt::format(finding_text("units.doubt"), values.name, unit.text, better->error_as_taken,
                      better->factor, better->error, better->factor);
 }

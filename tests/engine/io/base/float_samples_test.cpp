@@ -107,6 +107,43 @@ class FloatSamplesTest : public QObject {
     QVERIFY2(report.samples.find("up to 10") != std::string::npos, report.samples.c_str());
   }
 
+  void noiseAroundBlack_isNoRangeAroundZero_data() {
+    QTest::addColumn<float>("white");
+    QTest::newRow("to 1") << 1.0F;
+    QTest::newRow("highlights to 1.3") << 1.3F;
+  }
+  void noiseAroundBlack_isNoRangeAroundZero() {
+    QFETCH(float, white);
+    // A third is black, as by a dark frame that was taken from all, with read noise.
+    const Value dark = [=](auto& r) {
+      const float noise = 0.04F * std::normal_distribution<float>()(r);
+      const float light = uniform(r, 0, 3) < 1 ? 0 : uniform(r, 0, white);
+      return std::min(white, light + noise);
+    };
+    ConventionReport report;
+
+    const double divisor = divisor_of(dark, report);
+
+    QCOMPARE(divisor, 1.0);
+    QVERIFY2(report.warnings.front().find("noise around black") != std::string::npos,
+             report.warnings.front().c_str());
+  }
+
+  void brightViewsAroundZero_areNotTakenForNoise() {
+    // Of -1 … 1, with a smooth shadow that reaches -0.3.
+    ViewStack<float> stack({3, 3}, 40, 50, 3);
+    for (std::size_t i = 0; i < stack.size(); ++i) {
+      const double x = static_cast<double>(i / 3 % 50) / 49;
+      stack.data()[i] = static_cast<float>(1.3 * x * x - 0.3);
+    }
+    LightField::Samples samples = std::move(stack);
+    ConventionReport report;
+
+    io::scale_float_samples(samples, report);
+
+    QVERIFY2(report.samples.find("around 0") != std::string::npos, report.samples.c_str());
+  }
+
   void integers_stay() {
     ViewStack<std::uint16_t> stack({1, 1}, 4, 4, 1);
     std::fill_n(stack.data(), stack.size(), std::uint16_t{4000});

@@ -94,28 +94,55 @@ class OtherMapsTest : public QObject {
   }
 
   // The views are valid all the same: it tells nothing of the other views.
+  void maskOfOneView_isThatOfItsDisparity_data() {
+    QTest::addColumn<QString>("name");
+    QTest::addColumn<bool>("is_of_missing");
+    QTest::newRow("of known values") << "valid_mask" << false;
+    QTest::newRow("of missing values, as NumPy's") << "mask" << true;
+  }
   void maskOfOneView_isThatOfItsDisparity() {
+    QFETCH(QString, name);
+    QFETCH(bool, is_of_missing);
     const ViewIndex center = scene_.light_field->grid().center();
     const ImageView<const float> disparity = scene_.truth->field.disparity.view(center);
     ViewStack<float> map({1, 1}, disparity.height, disparity.width);
     std::copy_n(disparity.data, disparity.size(), map.data());
     ViewStack<std::uint8_t> mask({1, 1}, disparity.height, disparity.width);
-    std::fill_n(mask.data(), mask.size(), std::uint8_t{1});
-    std::fill_n(mask.data(), disparity.width, std::uint8_t{0});
+    std::fill_n(mask.data(), mask.size(), static_cast<std::uint8_t>(is_of_missing ? 0 : 1));
+    std::fill_n(mask.data(), disparity.width, static_cast<std::uint8_t>(is_of_missing ? 1 : 0));
+    if (is_of_missing) std::fill_n(map.data(), disparity.width, std::nanf(""));
 
     const Scene read = opened_with(path(), scene_, [&](io::Hdf5Output& file) {
       const io::Hdf5Shape shape{static_cast<std::size_t>(map.height()),
                                 static_cast<std::size_t>(map.width())};
       file.add_dataset<float>("disparity", shape, "", "");
       file.write("disparity", {{0, 0}, shape}, map.data());
-      file.add_dataset<std::uint8_t>("valid_mask", shape, "", "");
-      file.write("valid_mask", {{0, 0}, shape}, mask.data());
+      file.add_dataset<std::uint8_t>(name.toStdString(), shape, "", "");
+      file.write(name.toStdString(), {{0, 0}, shape}, mask.data());
     });
 
     const DisparityView found = read.truth->field.view(center);
     QVERIFY(!found.is_valid(0, 3));
     QVERIFY(found.is_valid(1, 3));
     QVERIFY(read.light_field->is_valid(center, 0, 3));
+  }
+
+  void maskOfMissingValuesOfAllViews_leavesTheViewsValid() {
+    ViewStack<float> maps = scene_.truth->field.disparity.clone();
+    ViewStack<std::uint8_t> mask(maps.grid(), maps.height(), maps.width());
+    for (std::size_t i = 0; i < maps.size(); i += 7) {
+      maps.data()[i] = std::nanf("");
+      mask.data()[i] = 1;
+    }
+
+    const Scene read = opened_with(path(), scene_, [&](io::Hdf5Output& file) {
+      add(file, "disparity", maps);
+      add(file, "mask", mask);
+    });
+
+    QVERIFY(read.light_field->is_valid({}, 0, 0));
+    QVERIFY(!read.truth->field.view({}).is_valid(0, 0));
+    QVERIFY(read.truth->field.view({}).is_valid(0, 1));
   }
 
   void brighterViewsOfWideIntegers_areKept() {

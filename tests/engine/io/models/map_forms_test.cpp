@@ -255,6 +255,35 @@ class MapFormsTest : public QObject {
     QCOMPARE(map.at(1, 2), 6.0F);
   }
 
+  void csv_leavesOutNamesOfRowsAndColumns_data() {
+    QTest::addColumn<QString>("header");
+    QTest::addColumn<bool>("has_index");
+    QTest::newRow("index and numbers, as of pandas") << ",0,1,2,3,4,5,6,7,8" << true;
+    QTest::newRow("named index and numbers") << "y,0,1,2,3,4,5,6,7,8" << true;
+    QTest::newRow("names") << "a,b,c,d,e,f,g,h,i" << false;
+    QTest::newRow("index and names") << ",a,b,c,d,e,f,g,h,i" << true;
+    QTest::newRow("named index and names") << "y,a,b,c,d,e,f,g,h,i" << true;
+    QTest::newRow("quoted, from 1, as of R") << R"("","1","2","3","4","5","6","7","8","9")" << true;
+  }
+  void csv_leavesOutNamesOfRowsAndColumns() {
+    QFETCH(QString, header);
+    QFETCH(bool, has_index);
+    std::string text = header.toStdString() + "\n";
+    for (int y = 0; y < 10; ++y) {
+      if (has_index) text += std::to_string(y) + ",";
+      for (int x = 0; x < 9; ++x) text += (x > 0 ? "," : "") + std::to_string(-x - 10 * y);
+      text += "\n";
+    }
+
+    const Image<float> map = csv_map(text.c_str());
+
+    QVERIFY(io::is_text_map(path("map.csv")));
+    QCOMPARE(map.height(), 10);
+    QCOMPARE(map.width(), 9);
+    QCOMPARE(map.at(0, 0), 0.0F);
+    QCOMPARE(map.at(9, 8), -98.0F);
+  }
+
   // A ramp is a map, too.
   void csvOfNumbersThatCount_isWhole() {
     std::string text;

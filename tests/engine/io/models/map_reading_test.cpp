@@ -134,6 +134,36 @@ class MapReadingTest : public QObject {
     QVERIFY(!found->better.mse_100.has_value() && found->better.grey_levels.has_value());
   }
 
+  void mapsOffTheirPlace_areSeenByTheTruth_data() {
+    QTest::addColumn<int>("down");
+    QTest::addColumn<int>("right");
+    QTest::newRow("up and left") << 4 << 4;
+    QTest::newRow("down") << -3 << 0;
+    QTest::newRow("as far as is looked") << 16 << -16;
+  }
+  void mapsOffTheirPlace_areSeenByTheTruth() {
+    QFETCH(int, down);
+    QFETCH(int, right);
+    const auto uneven = [](int y, int x) {
+      return std::sin(0.21 * x) + std::cos(0.17 * y + 0.1 * x);
+    };
+    const Estimate whole = map_of(uneven);
+    Estimate moved =
+        map_of([&](int y, int x) { return uneven(y + down, x + right) + 0.01 * (x % 3); });
+    io::MapEvidence evidence{*scene_.light_field, center()};
+    evidence.truth = whole.field.view(center());
+
+    const auto found = io::find_better_reading(moved.field.view(center()), evidence);
+
+    QVERIFY(found.has_value());
+    QVERIFY((found->reading == MapReading{.down_px = down, .right_px = right}));
+    io::apply_reading(found->reading, scene_.light_field.get(), moved);
+    const DisparityView put = moved.field.view(center());
+    QVERIFY(std::abs(put.disparity.at(32, 32) - uneven(32, 32)) < 0.03);
+    QVERIFY(!put.is_valid(down > 0 ? 0 : kSide - 1, 32));
+    QCOMPARE(moved.border_px, std::max(std::abs(down), std::abs(right)));
+  }
+
   void honestMaps_areLeftAlone_data() {
     QTest::addColumn<int>("kind");
     QTest::newRow("good") << 0;

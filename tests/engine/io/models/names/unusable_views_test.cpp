@@ -65,6 +65,7 @@ class UnusableViewsTest : public QObject {
 
     QVERIFY(warns_of(scene, name.toStdString() + " cannot be used: this view has 50×50 px"));
     QCOMPARE(scene.light_field->width(), folder_->scene.views.width());
+    QCOMPARE(io::probe_image_grid(folder_->path(), {}).grid, scene.light_field->grid());
     QVERIFY(scene.light_field->grid().count() >= 10);
   }
 
