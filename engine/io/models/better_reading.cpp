@@ -39,7 +39,8 @@ constexpr double kFarBeyond = 0.5;
 constexpr double kFarFromTruth = 4;
 constexpr float kUsualMissing[] = {0, -1};
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-constexpr int kRowStride = 4;  ///< Of the rows that are warped.
+constexpr int kRowStride = 4;     ///< Of the rows that are warped.
+constexpr int kFarthestOff = 16;  ///< Pixels that maps are looked for off their place.
 
 /// Integers that stand for fractions of a pixel: decimal, and fixed-point numbers of matchers. And
 /// maps of half or twice the resolution that were resized with their values as they were.
@@ -143,18 +144,32 @@ class TruthPoints {
   /// Mean absolute error of the map of one value that fits best.
   [[nodiscard]] double constant_error() const { return constant_error_; }
 
-  /// Mean absolute error by a reading; infinite if the map has values at few of the pixels.
+  /// Mean absolute error by a reading, from which `bias` is taken first; infinite if the map has
+  /// values at few of the pixels, or the error is `most` or more.
   [[nodiscard]] double error(const DisparityView& map, const MapReading& reading,
-                             const MapTarget& target) const {
+                             const MapTarget& target, double most = kInfinite,
+                             double bias = 0) const {
     const auto all = static_cast<double>(points_.size());
     double sum = 0, count = 0;
     for (const MapPoint& point : points_) {
       const float value = value_by(map, reading, target, point.y, point.x);
       if (!std::isfinite(value)) continue;
-      sum += std::abs(value - point.disparity);
+      sum += std::abs(value - point.disparity - bias);
+      if (sum >= most * all) return kInfinite;
       count += 1;
     }
-    return count > 0 && count >= kLeastCompared * all ? sum / count : kInfinite;
+    const bool is_told = count > 0 && count >= kLeastCompared * all && sum < most * count;
+    return is_told ? sum / count : kInfinite;
+  }
+
+  /// The same of the map as it is, but for one value by which all of it is off.
+  [[nodiscard]] double unbiased_error(const DisparityView& map, const MapTarget& target) const {
+    std::vector<double> all;
+    for (const MapPoint& point : points_) {
+      const float value = value_by(map, {}, target, point.y, point.x);
+      if (std::isfinite(value)) all.push_back(value - point.disparity);
+    }
+    return all.empty() ? kInfinite : error(map, {}, target, kInfinite, quantile(all, 0.5));
   }
 
  private:
@@ -233,6 +248,23 @@ std::optional<MapReading> least_reading(const std::vector<MapReading>& readings,
   return best;
 }
 
+/// The move of maps that are off their place which has the least error, if it is below `most`.
+std::optional<MapReading> best_move(const DisparityView& map, const TruthPoints& truth,
+                                    const MapTarget& target, double most) {
+  std::optional<MapReading> best;
+  for (int down = -kFarthestOff; down <= kFarthestOff; ++down) {
+    for (int right = -kFarthestOff; right <= kFarthestOff; ++right) {
+      if (down == 0 && right == 0) continue;
+      const MapReading moved{.down_px = down, .right_px = right};
+      const double error = truth.error(map, moved, target, most);
+      if (!(error < most)) continue;
+      most = error;
+      best = moved;
+    }
+  }
+  return best;
+}
+
 std::optional<MapReading> found_by_truth(const DisparityView& map, const MapEvidence& evidence,
                                          const MapTarget& target) {
   const TruthPoints truth(evidence.truth);
@@ -240,7 +272,13 @@ std::optional<MapReading> found_by_truth(const DisparityView& map, const MapEvid
     return truth.error(map, reading, target);
   };
   const double limit = kFarBetterByTruth * std::min(error_of({}), truth.constant_error());
-  return least_reading(possible_readings(map, evidence.light_field, true), limit, error_of);
+  std::vector<MapReading> readings = possible_readings(map, evidence.light_field, true);
+  // On slanted surfaces, a map that is off by one value resembles one that is off its place.
+  const double most_moved = kFarBetterByTruth * truth.unbiased_error(map, target);
+  if (const auto moved = best_move(map, truth, target, std::min(limit, most_moved))) {
+    readings.push_back(*moved);
+  }
+  return least_reading(readings, limit, error_of);
 }
 
 std::optional<MapReading> found_by_views(const DisparityView& map, const MapEvidence& evidence,

@@ -35,8 +35,8 @@ struct BetterReading {
 /// Looks for a reading of a map in the ways in which people err: rows and columns exchanged,
 /// reversed, negated, another scale, depth instead of disparity, a map without a border that lies
 /// in the upper left corner, with nothing beside it, and a value that stands for no estimate: one
-/// that many pixels have, far beyond all others or 0 or -1. With truth, the mean absolute error
-/// decides, over all combinations of turns
+/// that many pixels have, far beyond all others or 0 or -1. With truth also for a map that is up to
+/// 16 px off its place. With truth, the mean absolute error decides, over all combinations of turns
 /// and values: it must be less than half of the error as read, and of the error of the best
 /// constant. Without, the views decide alone, over turns with either sign, and values of maps that
 /// are not turned: the error of the next views must be below 0.6 of the error as read, and of the
