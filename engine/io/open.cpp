@@ -81,10 +81,10 @@ std::string advice_on_folder(const fs::path& folder) {
 }  // namespace
 
 std::span<const Reader> readers() {
-  static const Reader kReaders[] = {blender_reader(),   sequence_reader(), frames_reader(),
-                                    mosaic_reader(),    matlab_reader(),   hdf5_array_reader(),
-                                    numpy_reader(),     archive_reader(),  benchmark_reader(),
-                                    image_grid_reader()};
+  static const Reader kReaders[] = {blender_reader(), sequence_reader(),  frames_reader(),
+                                    mosaic_reader(),  matlab_reader(),    hdf5_array_reader(),
+                                    numpy_reader(),   archive_reader(),   benchmark_reader(),
+                                    excerpt_reader(), image_grid_reader()};
   return kReaders;
 }
 

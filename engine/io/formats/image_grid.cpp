@@ -10,6 +10,7 @@
 #include "engine/io/base/image_file.h"
 #include "engine/io/base/image_header.h"
 #include "engine/io/base/sample_range.h"
+#include "engine/io/formats/archive_depth.h"
 #include "engine/io/formats/mosaic_layout.h"
 #include "engine/io/models/assemble_scene.h"
 #include "engine/io/models/names/grid_names.h"
@@ -24,6 +25,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
+#include <fstream>
+#include <sstream>
 
 namespace episcope::io {
 namespace {
@@ -86,12 +90,20 @@ fs::path find_grid(const fs::path& path, const OpenOptions& options) {
   return is_found ? folder : fs::path();
 }
 
-FileUsage account_of(const fs::path& source, const fs::path& folder, const ViewFiles& views) {
+Scene read_grid(const fs::path& folder, const OpenOptions& options, const Progress& progress) {
+  ImageGridExtras extras;
+  extras.source = folder;
+  return read_image_grid(views_folder(folder), options, progress, extras);
+}
+
+FileUsage account_of(const fs::path& source, const fs::path& folder, const ViewFiles& views,
+                     const ImageGridExtras& extras) {
   FileUsage account(source);
   account.add_folder(folder);
   account.use(views.files, "views");
   account.leave_out(views.left_out, kViewsLeftOut);
   account.leave_out(views.unusable, kUnusableViews);
+  for (const auto& [file, kind] : extras.files) account.use(file, kind);
   return account;
 }
 
@@ -167,14 +179,30 @@ bool is_linear_format(const fs::path& path) {
   return suffix == ".exr" || suffix == ".hdr";
 }
 
+constexpr const char* kGridOptions[] = {"flip", "crop", "pattern", "snake", "grid", "levels"};
+
+}  // namespace
+
+Reader image_grid_reader() {
+  return {.id = "image_grid",
+          .name = "a grid of images",
+          .options = kGridOptions,
+          .find = find_grid,
+          .read = read_grid,
+          .probe = probe_image_grid};
+}
+
+namespace {
+
 // Reads a grid of images step by step.
 class GridReading {
  public:
-  GridReading(const fs::path& source, const OpenOptions& options)
-      : source_(source),
-        folder_(views_folder(source)),
+  GridReading(const fs::path& folder, const OpenOptions& options, const ImageGridExtras& extras)
+      : folder_(folder),
+        source_(extras.source.empty() ? folder : extras.source),
         options_(options),
-        grid_(name_grid(folder_, options)) {}
+        extras_(extras),
+        grid_(name_grid(folder, options)) {}
 
   Scene read(const Progress& progress) {
     if (grid_.placed.is_list && !given_grid(options_)) refuse_mosaics(folder_, views_);
@@ -195,7 +223,8 @@ class GridReading {
 
  private:
   void begin_report() {
-    report_.format = format_of(grid_, folder_, source_, options_);
+    report_.format =
+        extras_.format.empty() ? format_of(grid_, folder_, source_, options_) : extras_.format;
     if (is_linear_) report_.format += ", linear float samples";
     report_.units = "no depth in an image grid";
     report_.warnings = grid_.placed.warnings;
@@ -207,9 +236,9 @@ class GridReading {
   void begin_info() {
     parts_.info = {scene_name(source_),
                    source_.string(),
-                   {},
-                   std::nullopt,
-                   {.reader = "image_grid", .options = {}},
+                   extras_.camera,
+                   extras_.disparity_range,
+                   {.reader = extras_.reader, .options = {}},
                    grid_.placed.positions};
   }
   void read_views(const Progress& progress) {
@@ -228,20 +257,24 @@ class GridReading {
     }
   }
   void read_truth(const Progress& progress) {
-    FileUsage account = account_of(source_, folder_, views_);
+    FileUsage account = account_of(source_, folder_, views_, extras_);
     CameraGrid& camera = parts_.info.camera;
     if (grid_.poses.are_used()) add_camera(grid_.poses, pixels_.samples, camera, account);
-    progress.step("checking the order of views");
-    parts_.axes =
-        settle_axes(views_, pixels_, parts_.info.positions, options_, progress.part(0.7, 0.75));
-    SidecarMaps beside =
-        read_sidecar_maps({views_, folder_, pixels_.samples, camera, options_.map_views(),
-                           options_.needs_truth, grid_.poses.are_used()},
-                          {account, report_}, progress.part(0.75, 0.8));
-    parts_.truth = std::move(beside.truth);
-    parts_.expected.is_truth_sign_assumed = beside.is_sign_assumed;
-    camera = beside.camera;
-    scene_.scribbles.labels = std::move(beside.label_infos);
+    if (extras_.read_truth) {
+      parts_.truth.field = extras_.read_truth(pixels_.samples, camera, report_);
+    } else {
+      progress.step("checking the order of views");
+      parts_.axes =
+          settle_axes(views_, pixels_, parts_.info.positions, options_, progress.part(0.7, 0.75));
+      SidecarMaps beside =
+          read_sidecar_maps({views_, folder_, pixels_.samples, camera, options_.map_views(),
+                             options_.needs_truth, grid_.poses.are_used()},
+                            {account, report_}, progress.part(0.75, 0.8));
+      parts_.truth = std::move(beside.truth);
+      parts_.expected.is_truth_sign_assumed = beside.is_sign_assumed;
+      camera = beside.camera;
+      scene_.scribbles.labels = std::move(beside.label_infos);
+    }
     parts_.files = account.uses();
   }
   void expect_order() {
@@ -256,9 +289,10 @@ class GridReading {
     parts_.expected.is_of_poses = grid_.poses.are_used();
   }
 
+  const fs::path& folder_;
   const fs::path& source_;
-  const fs::path folder_;
   const OpenOptions& options_;
+  const ImageGridExtras& extras_;
   NamedGrid grid_;
   ViewFiles& views_ = grid_.placed.views;
   std::string evidence_;  // of the grid; empty if names tell it
@@ -269,9 +303,14 @@ class GridReading {
   ConventionReport& report_ = scene_.convention;
 };
 
-Scene read_grid(const fs::path& source, const OpenOptions& options, const Progress& progress) {
-  return GridReading(source, options).read(progress);
+}  // namespace
+
+Scene read_image_grid(const fs::path& folder, const OpenOptions& options, const Progress& progress,
+                      const ImageGridExtras& extras) {
+  return GridReading(folder, options, extras).read(progress);
 }
+
+namespace {
 
 using PixelSize = std::pair<int, int>;
 
@@ -331,9 +370,7 @@ SceneProbe probe_views(const ViewFiles& given) {
           .sample_type = header.sample_type};
 }
 
-namespace {
-
-SceneProbe probe_grid(const std::filesystem::path& folder, const OpenOptions& options) {
+SceneProbe probe_image_grid(const std::filesystem::path& folder, const OpenOptions& options) {
   const std::filesystem::path inside = views_folder(folder);
   PlacedViews placed = name_grid(inside, options).placed;
   SceneProbe probe = probe_views(placed.views);
@@ -348,17 +385,134 @@ SceneProbe probe_grid(const std::filesystem::path& folder, const OpenOptions& op
   return probe;
 }
 
-constexpr const char* kGridOptions[] = {"flip", "crop", "pattern", "snake", "grid", "levels"};
+namespace {
+
+CameraGrid camera_of(const ExcerptAttributes& attributes) {
+  const auto number = [&](const char* name) {
+    const auto found = attributes.find(name);
+    return found == attributes.end() ? 0 : found->second;
+  };
+  CameraGrid camera;
+  camera.baseline = number("dH");
+  camera.focal_length = number("focalLength");
+  camera.shift = number("shift");
+  return camera;
+}
+
+ViewStack<float> read_depth(const fs::path& path, int height, int width, ViewIndex center) {
+  require_openable_file(path);  // any bytes may be samples
+  ViewStack<float> depth({1, 1}, height, width, 1, center);
+  const std::uintmax_t bytes = fs::file_size(path);
+  if (bytes != depth.size() * sizeof(float)) {
+    throw IoError(path, fmt::format("the file has {} bytes, but {} are expected for {}×{} float "
+                                    "samples; copy it again or remove it",
+                                    bytes, depth.size() * sizeof(float), width, height));
+  }
+  std::ifstream in(path, std::ios::binary);
+  in.read(reinterpret_cast<char*>(depth.data()), static_cast<std::streamsize>(bytes));
+  if constexpr (std::endian::native == std::endian::big) {
+    std::transform(depth.data(), depth.data() + depth.size(), depth.data(), [](float sample) {
+      return std::bit_cast<float>(__builtin_bswap32(std::bit_cast<std::uint32_t>(sample)));
+    });
+  }
+  return depth;
+}
+
+ViewStack<std::uint8_t> read_excerpt_mask(const fs::path& path, int height, int width,
+                                          ViewIndex center) {
+  if (!is_there(path)) return {};
+  const Image<std::int32_t> numbers = decode_numbers(path);
+  if (numbers.height() != height || numbers.width() != width) {
+    throw IoError(
+        path,
+        fmt::format("the mask has {}×{} px, but the views have {}×{} px; remove or replace it",
+                    numbers.width(), numbers.height(), width, height));
+  }
+  ViewStack<std::uint8_t> mask({1, 1}, height, width, 1, center);
+  std::transform(numbers.begin(), numbers.end(), mask.data(),
+                 [](std::int32_t value) { return static_cast<std::uint8_t>(value != 0); });
+  return mask;
+}
+
+bool is_excerpt_folder(const fs::path& folder) {
+  return is_there(folder / "depth.bin") && is_there(folder / "attributes.dat") &&
+         fs::is_directory(folder / "lf");
+}
+
+Scene read_excerpt(const fs::path& folder, const OpenOptions& options, const Progress& progress) {
+  const auto attributes = read_excerpt_attributes(folder / "attributes.dat");
+  ImageGridExtras extras;
+  extras.reader = "excerpt";
+  extras.format = "archive excerpt (lf, depth.bin)";
+  extras.source = folder;
+  extras.camera = camera_of(attributes);
+  const auto min = attributes.find("min_disp");
+  const auto max = attributes.find("max_disp");
+  if (min != attributes.end() && max != attributes.end() && min->second < max->second) {
+    extras.disparity_range = Interval{min->second, max->second};
+  }
+  extras.files = {{folder / "attributes.dat", "camera attributes"},
+                  {folder / "depth.bin", "depth of the center view"}};
+  if (is_there(folder / "mask.png")) extras.files.emplace_back(folder / "mask.png", "mask");
+  extras.read_truth = [&](const LightField::Samples& samples, CameraGrid& camera,
+                          ConventionReport& report) {
+    if (!camera.is_known()) {
+      throw IoError(folder / "attributes.dat",
+                    "dH and focalLength are missing here; add them or open the folder lf alone");
+    }
+    return std::visit(
+        [&](const auto& stack) {
+          const ViewIndex center = stack.grid().center();
+          DepthMaps maps{
+              "depth.bin", read_depth(folder / "depth.bin", stack.height(), stack.width(), center),
+              read_excerpt_mask(folder / "mask.png", stack.height(), stack.width(), center)};
+          camera = settle_units(maps, samples, camera, options.units, report);
+          return disparity_from_depth(std::move(maps), camera, report, Progress(1));
+        },
+        samples);
+  };
+  return read_image_grid(folder / "lf", options, progress, extras);
+}
+
+SceneProbe probe_excerpt(const fs::path& folder, const OpenOptions& options) {
+  SceneProbe probe = probe_image_grid(folder, options);
+  probe.truth = "depth of the center view";
+  return probe;
+}
+
+fs::path find_excerpt(const fs::path& path, const OpenOptions& options) {
+  const fs::path folder = scene_folder(path);
+  const bool is_one = !folder.empty() && !wants_image_grid(options) && is_excerpt_folder(folder);
+  return is_one ? folder : fs::path();
+}
+
+constexpr const char* kExcerptOptions[] = {"flip",  "crop", "units", "pattern",
+                                           "snake", "grid", "levels"};
 
 }  // namespace
 
-Reader image_grid_reader() {
-  return {.id = "image_grid",
-          .name = "a grid of images",
-          .options = kGridOptions,
-          .find = find_grid,
-          .read = read_grid,
-          .probe = probe_grid};
+Reader excerpt_reader() {
+  return {.id = "excerpt",
+          .name = "an excerpt of the 2013 archive",
+          .options = kExcerptOptions,
+          .find = find_excerpt,
+          .read = read_excerpt,
+          .probe = probe_excerpt};
+}
+
+ExcerptAttributes read_excerpt_attributes(const std::filesystem::path& path) {
+  require_readable_file(path);
+  std::ifstream in(path);
+  ExcerptAttributes attributes;
+  for (std::string line; std::getline(in, line);) {
+    std::istringstream words(line);
+    std::string value;
+    std::string name;
+    words >> value >> name;
+    const auto number = parse_number(value);
+    if (number && name.starts_with("//")) attributes[name.substr(2)] = *number;
+  }
+  return attributes;
 }
 
 }  // namespace episcope::io

@@ -50,6 +50,8 @@ class SharedDataTest : public QObject {
     const double none = std::numeric_limits<double>::quiet_NaN();
     QTest::newRow("archive") << "still_life" << 9 << 512 << -1.169 << 1.502 << false;
     QTest::newRow("benchmark") << "cotton" << 9 << 512 << -1.4647 << 1.3643 << false;
+    QTest::newRow("archive excerpt")
+        << "archive_excerpt_3x3" << 3 << 768 << -10.827 << 10.252 << false;
     QTest::newRow("Stanford") << "stanford_17x17" << 17 << 256 << none << none << true;
   }
   void realFolder_opensInOrder() {
