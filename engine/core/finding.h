@@ -113,6 +113,10 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
      "{:.1f} % of all pixels, in {} of {} views, are dark where the center view is not; they are "
      "marked as not valid.",
      "%1 % of the pixels are dark and do not count."},
+    {"valid.corners",
+     "The corners of the views are black, {:.1f} % of their pixels, as a lens cuts them off; they "
+     "are marked as not valid.",
+     "Black corners (%1 %) do not count."},
     // Views that cannot be read, or are unlike the others; what follows are findings of their own.
     {"views.unusable", "{} cannot be used: {}. {}", "%1 cannot be used."},
     {"views.unusable_others", "Nor can {} other views. {}"},
@@ -374,6 +378,11 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
      "grey levels, with its values times {:.4g} by {:.2f}; if they are of another unit, convert "
      "the map to .pfm with --map-scale {:.4g}.",
      "The unit of %1 is in doubt."},
+    {"units.offset",
+     "No known unit explains the views well with {}: taken for {}, the next views differ by {:.2f} "
+     "grey levels, with its values times {:.4g} plus {:.3g} px by {:.2f}. If the map was "
+     "normalized or shifted, save it again in px: no option undoes that.",
+     "%1 is normalized or lacks a constant."},
     {"units.warp", "mean grey error of neighboring views after warping {}, unwarped {}"},
     {"units.warp_stored",
      "mean grey error of neighboring views after warping {}, unwarped {}, with the values as "

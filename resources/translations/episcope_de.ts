@@ -2404,6 +2404,10 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Die Prüfung spricht für eine andere Reihenfolge.</translation>
     </message>
     <message>
+        <source>The corners of the views are black, %1 % of their pixels, as a lens cuts them off; they are marked as not valid.</source>
+        <translation>Die Ecken der Ansichten sind schwarz, %1 % ihrer Pixel, weil ein Objektiv sie abschneidet; sie sind als ungültig markiert.</translation>
+    </message>
+    <message>
         <source>The depth gives disparities of %1 … %2 px per view step, which is implausible; check dH, focalLength and shift of the file.</source>
         <translation>Die Tiefe ergibt Disparitäten von %1 … %2 px je Ansichtsschritt, was unplausibel ist; dH, focalLength und shift der Datei prüfen.</translation>
     </message>
@@ -2770,6 +2774,10 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>All views state that they are stored %1 (Exif orientation %2): they are shown upright, with rows and columns of pixels to match.</source>
         <translation>Alle Ansichten geben an, dass sie anders gespeichert sind (%1, Exif-Orientierung %2): Sie werden aufrecht gezeigt, mit Pixelzeilen und -spalten dazu.</translation>
+    </message>
+    <message>
+        <source>Black corners (%1 %) do not count.</source>
+        <translation>Schwarze Ecken (%1 %) zählen nicht.</translation>
     </message>
     <message>
         <source>By its name %1 holds Y, Cb and Cr: they were taken as those of %2 and turned into colors.</source>
@@ -3180,12 +3188,20 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>im Mittel %1 px neben der Karte der mittleren Ansicht, wie gespeichert %2 px</translation>
     </message>
     <message>
+        <source>%1 is normalized or lacks a constant.</source>
+        <translation>%1 ist normiert oder ohne eine Konstante.</translation>
+    </message>
+    <message>
         <source>%1 were turned.</source>
         <translation>%1 wurden gedreht.</translation>
     </message>
     <message>
         <source>%1 with %2×%3 px lie on their side beside views of %4×%5 px: rows and columns were exchanged.</source>
         <translation>%1 mit %2×%3 px liegen neben Ansichten von %4×%5 px auf der Seite: Zeilen und Spalten wurden vertauscht.</translation>
+    </message>
+    <message>
+        <source>No known unit explains the views well with %1: taken for %2, the next views differ by %3 grey levels, with its values times %4 plus %5 px by %6. If the map was normalized or shifted, save it again in px: no option undoes that.</source>
+        <translation>Keine bekannte Einheit erklärt mit %1 die Ansichten gut: als %2 unterscheiden sich die nächsten Ansichten um %3 Graustufen, mit den Werten mal %4 plus %5 px um %6. Wurde die Karte normiert oder verschoben, sie noch einmal in px speichern: Keine Option macht das rückgängig.</translation>
     </message>
     <message>
         <source>No known unit explains the views well with %1: taken for %2, the next views differ by %3 grey levels, with its values times %4 by %5; if they are of another unit, convert the map to .pfm with --map-scale %6.</source>

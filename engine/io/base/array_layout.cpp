@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -232,6 +233,10 @@ std::string layout_text(const ArrayLayout& layout, IndexOrder order) {
 
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds kPreviewTime{700};
+constexpr std::size_t kCoarsest = 64;
 constexpr std::size_t kLargestPiece = std::size_t{64} << 20;
 
 struct PixelBox {
@@ -241,6 +246,13 @@ struct PixelBox {
   int width = 0;
   int channel = 0;
   int channels = 1;
+};
+
+/// One view in float, and which lines of it have been read.
+struct PartialView {
+  Image<float> samples;
+  char line_letter = 'y';  ///< y: rows are read one by one; x: columns.
+  std::vector<std::uint8_t> has_line;
 };
 
 /// A block of the array: everything along `letter`, one place along the others.
@@ -270,6 +282,72 @@ struct Selection {
 std::size_t offset_of(const Selection& block, ViewIndex view) {
   return block.stride('v') * static_cast<std::size_t>(view.v) +
          block.stride(block.layout.has('n') ? 'n' : 'u') * static_cast<std::size_t>(view.u);
+}
+
+/// All views of a line of pixels at once: they lie together.
+void read_line(const ArrayInput& array, const ArrayLayout& layout, ViewIndex view, std::size_t line,
+               PartialView& out) {
+  const bool is_row = out.line_letter == 'y';
+  Selection block(layout);
+  block.pick(out.line_letter, line);
+  std::vector<float> samples(element_count(block.count));
+  array.read(block.start, block.count, samples.data());
+  const std::size_t first = offset_of(block, view);
+  const std::size_t along = block.stride(is_row ? 'x' : 'y');
+  const std::size_t channel = block.stride('c');
+  for (int i = 0; i < (is_row ? out.samples.width() : out.samples.height()); ++i) {
+    const int y = is_row ? static_cast<int>(line) : i;
+    const int x = is_row ? i : static_cast<int>(line);
+    for (int c = 0; c < out.samples.channels(); ++c) {
+      out.samples.at(y, x, c) = samples[first + along * static_cast<std::size_t>(i) +
+                                        channel * static_cast<std::size_t>(c)];
+    }
+  }
+  out.has_line[line] = 1;
+}
+
+void read_lines(const ArrayInput& array, const ArrayLayout& layout, ViewIndex view,
+                PartialView& out) {
+  const auto begin = Clock::now();
+  const std::size_t lines = out.has_line.size();
+  for (std::size_t step = kCoarsest; step > 0; step /= 2) {
+    for (std::size_t line = step / 2; line < lines; line += step) {
+      if (out.has_line[line]) continue;
+      const bool has_any = step < kCoarsest || line > step;
+      if (has_any && Clock::now() - begin > kPreviewTime) return;
+      read_line(array, layout, view, line, out);
+    }
+  }
+  for (std::size_t line = 0; line < lines; ++line) {
+    if (Clock::now() - begin > kPreviewTime) return;
+    if (!out.has_line[line]) read_line(array, layout, view, line, out);
+  }
+}
+
+/// Lines that were not read repeat the nearest one that was.
+void fill_lines(PartialView& view) {
+  const auto lines = static_cast<int>(view.has_line.size());
+  const auto copy = [&](int from, int to) {
+    const bool is_row = view.line_letter == 'y';
+    for (int i = 0; i < (is_row ? view.samples.width() : view.samples.height()); ++i) {
+      for (int c = 0; c < view.samples.channels(); ++c) {
+        float& out = is_row ? view.samples.at(to, i, c) : view.samples.at(i, to, c);
+        out = is_row ? view.samples.at(from, i, c) : view.samples.at(i, from, c);
+      }
+    }
+  };
+  for (int line = 0; line < lines; ++line) {
+    if (view.has_line[static_cast<std::size_t>(line)]) continue;
+    for (int far = 1; far < lines; ++far) {
+      const int before = line - far;
+      const int after = line + far;
+      const bool is_before = before >= 0 && view.has_line[static_cast<std::size_t>(before)];
+      const bool is_after = after < lines && view.has_line[static_cast<std::size_t>(after)];
+      if (!is_before && !is_after) continue;
+      copy(is_before ? before : after, line);
+      break;
+    }
+  }
 }
 
 /// The box of some views, which are read at once if they lie together.
@@ -333,8 +411,16 @@ Image<std::uint8_t> picture_of(const Image<float>& samples, NumberType type) {
 Image<std::uint8_t> array_preview(const ArrayInput& array, const ArrayLayout& layout,
                                   ViewIndex view) {
   const int channels = static_cast<int>(std::min<std::size_t>(layout.length('c'), 3));
-  const PixelBox whole{0, 0, layout.height(), layout.width(), 0, channels};
-  return picture_of(read_boxes(array, layout, {view}, whole).front(), array.type());
+  if (!layout.views_are_fastest()) {
+    const PixelBox whole{0, 0, layout.height(), layout.width(), 0, channels};
+    return picture_of(read_boxes(array, layout, {view}, whole).front(), array.type());
+  }
+  PartialView partial{Image<float>(layout.height(), layout.width(), channels), 'y', {}};
+  if (layout.axes.find('x') < layout.axes.find('y')) partial.line_letter = 'x';
+  partial.has_line.resize(layout.length(partial.line_letter));
+  read_lines(array, layout, view, partial);
+  fill_lines(partial);
+  return picture_of(partial.samples, array.type());
 }
 
 std::vector<Image<float>> array_windows(const ArrayInput& array, const ArrayLayout& layout,

@@ -322,9 +322,11 @@ void keep_what_was_seen(SceneParts& parts, const OpenOptions& options, Conventio
   }
   const auto [height, width] = std::visit(
       [](const auto& stack) { return std::pair(stack.height(), stack.width()); }, parts.samples);
-  std::string text =
-      mark_empty_pixels(brightness, height, width, parts.valid, progress.part(0.6, 1));
-  if (!text.empty()) report.warnings.push_back(std::move(text));
+  for (std::string text :
+       {mark_empty_pixels(brightness, height, width, parts.valid, progress.part(0.6, 0.7)),
+        mark_black_corners(parts.samples, parts.valid, progress.part(0.7, 1))}) {
+    if (!text.empty()) report.warnings.push_back(std::move(text));
+  }
   if (parts.valid.empty()) return;
   const std::uint8_t* valid = parts.valid.data();
   const bool is_whole =

@@ -58,4 +58,12 @@ enum class BrightnessRows { EverySecond, Few };
 std::string mark_empty_pixels(const ViewBrightness& brightness, int height, int width,
                               ViewStack<std::uint8_t>& valid, const Progress& progress);
 
+/// Marks the black corners of a lens as invalid (0). At least three corners of the center view must
+/// be black wedges, each shorter than 0.3 of both sides. Four fifths of their pixels must be black
+/// in the other views too: parts of a scene would move. Brighter pixels that black ones enclose are
+/// noise. Creates `valid` only if there are such
+/// pixels. Returns a sentence for the report, empty if nothing was marked. Throws Cancelled.
+std::string mark_black_corners(const LightField::Samples& samples, ViewStack<std::uint8_t>& valid,
+                               const Progress& progress);
+
 }  // namespace episcope::io

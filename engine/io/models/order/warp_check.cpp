@@ -430,19 +430,31 @@ namespace {
 constexpr int kFactorSteps = 48;
 constexpr double kFactorsPerOctave = 8;
 constexpr double kOtherFactor = 0.2;
-/// Largest share of the error that another factor may leave, and standard deviations of chance.
+/// Largest share of the error that another meaning may leave, and standard deviations of chance.
 constexpr double kClearFactor = 0.85;
+constexpr double kClearOffset = 0.8;
 constexpr double kSignificantUnit = 4;
+/// A map that explains views this well lacks no offset.
+constexpr double kNoOffset = 0.5;
+/// With an offset: the range of the map, px, from 1/8 to 32 in thirds of octaves, and its median.
+constexpr int kFirstThird = -9, kLastThird = 15;
+constexpr double kMedianStep = 0.25, kLargestMedian = 8;
+constexpr std::size_t kCoarsePoints = 600;
 constexpr int kRefinements = 4;
+
+/// Numbers of a map times `factor`, plus `offset`.
+struct Meaning {
+  double factor = 1;
+  double offset = 0;
+  [[nodiscard]] double operator()(const MapPoint& point) const {
+    return factor * point.disparity + offset;
+  }
+  [[nodiscard]] Meaning negated() const { return {-factor, -offset}; }
+};
 
 using Points = std::vector<MapPoint>;
 
-auto times(double factor) {
-  return [=](const MapPoint& point) { return factor * point.disparity; };
-}
-
-/// The neighbors of a view along both axes, each in the order that suits a factor of the map
-/// better.
+/// The neighbors of a view along both axes, each in the order that suits a meaning better.
 class Neighbors {
  public:
   Neighbors(const LightField::Samples& samples, ViewIndex at) : here_(picture_of(samples, at)) {
@@ -452,23 +464,24 @@ class Neighbors {
     }
   }
 
-  [[nodiscard]] double error(const Points& points, double factor) const {
+  [[nodiscard]] double error(const Points& points, const Meaning& meaning) const {
     double sum = 0;
     for (const auto& pairs : axes_) {
-      sum += std::min(mean_error(pairs, points, times(factor)),
-                      mean_error(pairs, points, times(-factor)));
+      sum += std::min(mean_error(pairs, points, meaning),
+                      mean_error(pairs, points, meaning.negated()));
     }
     return axes_.empty() ? HUGE_VAL : sum / static_cast<double>(axes_.size());
   }
 
-  /// Whether one factor is better than another by more than chance.
-  [[nodiscard]] bool is_better(const Points& points, double one, double other) const {
+  /// Whether one meaning is better than another by more than chance.
+  [[nodiscard]] bool is_better(const Points& points, const Meaning& one,
+                               const Meaning& other) const {
     Squares squares;
     for (const auto& pairs : axes_) {
-      const auto ordered = [&](double factor) {
-        const bool is_better =
-            mean_error(pairs, points, times(factor)) <= mean_error(pairs, points, times(-factor));
-        return times(is_better ? factor : -factor);
+      const auto ordered = [&](const Meaning& meaning) {
+        const Meaning reversed = meaning.negated();
+        return mean_error(pairs, points, meaning) <= mean_error(pairs, points, reversed) ? meaning
+                                                                                         : reversed;
       };
       for (const WarpedPair& pair : pairs) {
         add_pair(pair, points, ordered(one), ordered(other), squares);
@@ -484,9 +497,9 @@ class Neighbors {
 };
 
 struct Candidate {
-  double factor = 1;
+  Meaning meaning;
   double error = HUGE_VAL;
-  void take(const Neighbors& neighbors, const Points& points, double other) {
+  void take(const Neighbors& neighbors, const Points& points, const Meaning& other) {
     const double its = neighbors.error(points, other);
     if (its < error) *this = {other, its};
   }
@@ -495,12 +508,45 @@ struct Candidate {
 Candidate best_factor(const Neighbors& neighbors, const Points& points, double factor) {
   Candidate best;
   for (int step = -kFactorSteps; step <= kFactorSteps; ++step) {
-    best.take(neighbors, points, factor * std::exp2(step / kFactorsPerOctave));
+    best.take(neighbors, points, {factor * std::exp2(step / kFactorsPerOctave)});
   }
   double ratio = std::exp2(0.5 / kFactorsPerOctave);
   for (int i = 0; i < kRefinements; ++i, ratio = std::sqrt(ratio)) {
-    const double middle = best.factor;
-    for (const double by : {1 / ratio, ratio}) best.take(neighbors, points, by * middle);
+    const double middle = best.meaning.factor;
+    for (const double by : {1 / ratio, ratio}) best.take(neighbors, points, {by * middle});
+  }
+  return best;
+}
+
+/// Precondition: the range of the map is not 0.
+Candidate best_with_offset(const Neighbors& neighbors, const Points& points) {
+  std::vector<float> values;
+  for (const MapPoint& point : points) values.push_back(static_cast<float>(point.disparity));
+  const double middle = quantile(values, 0.5);
+  const double range = range_of(points);
+  Points few;
+  const std::size_t stride = points.size() / kCoarsePoints + 1;
+  for (std::size_t i = 0; i < points.size(); i += stride) few.push_back(points[i]);
+  const auto meaning = [&](double factor, double median) {
+    return Meaning{factor, median - factor * middle};
+  };
+  Candidate best;
+  for (int third = kFirstThird; third <= kLastThird; ++third) {
+    const double factor = std::exp2(third / 3.0) / range;
+    for (double at = -kLargestMedian; at <= kLargestMedian; at += kMedianStep) {
+      best.take(neighbors, few, meaning(factor, at));
+    }
+  }
+  best.error = neighbors.error(points, best.meaning);
+  double ratio = std::exp2(1 / 6.0), step = kMedianStep / 2;
+  for (int i = 0; i < kRefinements; ++i, ratio = std::sqrt(ratio), step /= 2) {
+    const double factor = best.meaning.factor;
+    const double median = factor * middle + best.meaning.offset;
+    for (const double by : {1 / ratio, 1.0, ratio}) {
+      for (const double more : {-step, 0.0, step}) {
+        best.take(neighbors, points, meaning(by * factor, median + more));
+      }
+    }
   }
   return best;
 }
@@ -511,15 +557,25 @@ std::optional<BetterUnit> find_better_unit(const LightField::Samples& samples, V
                                            const DisparityView& map, double factor) {
   const Neighbors neighbors(samples, at);
   const Points points = spread_points(map);
-  Candidate taken{factor, neighbors.error(points, factor)};
+  Candidate taken{{factor}, neighbors.error(points, {factor})};
   const double as_taken = std::min<double>(taken.error, kLargestConstantError);
-  taken.take(neighbors, points, 0);
+  const double unwarped = neighbors.error(points, {0});
+  taken.take(neighbors, points, {0});
   const Candidate scaled = best_factor(neighbors, points, factor);
-  const bool is_other = std::abs(std::log2(scaled.factor / factor)) > kOtherFactor;
-  const bool is_clear = is_other && scaled.error < kClearFactor * taken.error &&
-                        neighbors.is_better(points, scaled.factor, taken.factor);
-  if (!is_clear) return std::nullopt;
-  return BetterUnit{scaled.factor, scaled.error, as_taken};
+  const auto found = [&](const Candidate& better) {
+    return BetterUnit{better.meaning.factor, better.meaning.offset, better.error, as_taken};
+  };
+  const bool is_other = std::abs(std::log2(scaled.meaning.factor / factor)) > kOtherFactor;
+  if (is_other && scaled.error < kClearFactor * taken.error &&
+      neighbors.is_better(points, scaled.meaning, taken.meaning)) {
+    return found(scaled);
+  }
+  if (as_taken <= kNoOffset * unwarped || !(range_of(points) > 0)) return {};
+  if (scaled.error < taken.error) taken = scaled;
+  const Candidate moved = best_with_offset(neighbors, points);
+  const bool is_clear = moved.error < kClearOffset * taken.error &&
+                        neighbors.is_better(points, moved.meaning, taken.meaning);
+  return is_clear ? std::optional(found(moved)) : std::nullopt;
 }
 
 }  // namespace episcope::io

@@ -14,7 +14,6 @@
 #include <unistd.h>
 
 #include <fstream>
-#include <functional>
 #include <iostream>
 
 namespace episcope::in_hostile_pictures_test {
@@ -30,19 +29,6 @@ class HostilePicturesTest : public QObject {
     const std::filesystem::path path = folder_.filePath(name).toStdString();
     std::ofstream(path, std::ios::binary) << bytes;
     return path;
-  }
-
-  /// What `step`, and then this test, write to standard error.
-  QByteArray heard(const std::function<void()>& step) const {
-    QFile errors(folder_.filePath("errors"));
-    if (!errors.open(QIODevice::ReadWrite | QIODevice::Truncate)) return {};
-    const int before = dup(STDERR_FILENO);
-    dup2(errors.handle(), STDERR_FILENO);
-    step();
-    std::cerr << "heard" << std::flush;
-    dup2(before, STDERR_FILENO);
-    close(before);
-    return errors.seek(0) ? errors.readAll() : QByteArray();
   }
 
  private slots:
@@ -215,27 +201,18 @@ class HostilePicturesTest : public QObject {
     cv::randu(picture, 0, 255);
     QVERIFY(cv::imwrite(path.string(), picture));
     std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
+    QFile errors(folder_.filePath("errors"));
+    QVERIFY(errors.open(QIODevice::ReadWrite | QIODevice::Truncate));
+    const int before = dup(STDERR_FILENO);
+    dup2(errors.handle(), STDERR_FILENO);
 
-    const QByteArray told = heard(
-        [&] { QVERIFY_THROWS_EXCEPTION(IoError, static_cast<void>(io::decode_image(path))); });
+    QVERIFY_THROWS_EXCEPTION(IoError, static_cast<void>(io::decode_image(path)));
+    std::cerr << "heard" << std::flush;
 
-    QCOMPARE(told, QByteArray("heard"));
-  }
-
-  // libjpeg writes to the file `stderr`.
-  void damagedJpeg_isReadSilently() {
-    const std::filesystem::path path = folder_.filePath("damaged.jpg").toStdString();
-    cv::Mat picture(64, 70, CV_8UC3);
-    cv::randu(picture, 0, 255);
-    QVERIFY(cv::imwrite(path.string(), picture));
-    std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
-    file.seekp(static_cast<std::streamoff>(std::filesystem::file_size(path) / 2));
-    file.write("\xff\xd3", 2);
-    file.close();
-
-    const QByteArray told = heard([&] { static_cast<void>(io::decode_image(path)); });
-
-    QCOMPARE(told, QByteArray("heard"));
+    dup2(before, STDERR_FILENO);
+    close(before);
+    QVERIFY(errors.seek(0));
+    QCOMPARE(errors.readAll(), QByteArray("heard"));
   }
 };
 

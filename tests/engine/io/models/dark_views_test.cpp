@@ -209,6 +209,38 @@ class DarkViewsTest : public QObject {
     QVERIFY(scene.light_field->is_valid({0, 1}, 80, 5));
   }
 
+  void cornersCutOffByALens_areMarked() {
+    const auto in_corner = [](int y, int x) {
+      return std::min(y, 159 - y) + std::min(x, 199 - x) < 25;
+    };
+    const Scene scene =
+        assembled({3, 3}, [&](ViewIndex, int y, int x) { return in_corner(y, x) ? 0.0 : 1.0; });
+
+    QVERIFY2(report_of(scene).contains("as a lens cuts them off"), qPrintable(report_of(scene)));
+    for (int y = 0; y < 160; ++y) {
+      for (int x = 0; x < 200; ++x) {
+        QCOMPARE(scene.light_field->is_valid({0, 2}, y, x), !in_corner(y, x));
+      }
+    }
+  }
+
+  void noiseInDarkCorners_isInvalid() {
+    const auto is_noise = [](ViewIndex view, int y, int x) {
+      return view == ViewIndex{0, 0} && (y == 3 || y == 4) && x == 5;
+    };
+    const auto is_outline = [](ViewIndex view, int y, int x) {
+      return view == ViewIndex{0, 0} && y == 0 && x >= 20 && x < 25;
+    };
+    const Scene scene = assembled({3, 3}, [&](ViewIndex view, int y, int x) {
+      const bool is_dark = std::min(y, 159 - y) + std::min(x, 199 - x) < 25;
+      return is_dark && !is_noise(view, y, x) && !is_outline(view, y, x) ? 0.0 : 1.0;
+    });
+
+    QVERIFY(!scene.light_field->is_valid({0, 0}, 3, 5));
+    QVERIFY(!scene.light_field->is_valid({0, 0}, 4, 5));
+    QVERIFY(scene.light_field->is_valid({0, 0}, 0, 21));  // of the picture beside the corner
+  }
+
   void reversedAxis_takesTheMaskAlong() {
     io::SceneParts parts = parts_of({3, 3}, [](ViewIndex, int, int) { return 1.0; });
     parts.valid = ViewStack<std::uint8_t>({3, 3}, 160, 200);

@@ -194,6 +194,23 @@ class UnknownUnitTest : public QObject {
     QVERIFY2(warns_of(scene, "--map-scale 0.01"), describe(scene.convention).c_str());
   }
 
+  void normalizedDisparity_isDoubted_data() {
+    QTest::addColumn<double>("white");
+    QTest::newRow("0 to 1") << 1.0;
+    QTest::newRow("0 to 255") << 255.0;
+  }
+  void normalizedDisparity_isDoubted() {
+    QFETCH(double, white);
+    const auto [least, most] =
+        std::minmax_element(disparity().data, disparity().data + disparity().size());
+    const double begin = *least, length = *most - *least;
+    write_numbers([=](double d) { return white * (d - begin) / length; });
+
+    const Scene scene = open();
+
+    QVERIFY2(warns_of(scene, "normalized or shifted"), describe(scene.convention).c_str());
+  }
+
   void rightValues_areNotDoubted() {
     use_noisy_views();
     write_numbers([](double d) { return d; });
