@@ -192,7 +192,7 @@ namespace {
 std::vector<io::CollectionEntry> entries_at(const std::string& input, const ReadOptions& options,
                                             const Progress& progress) {
   const io::OpenOptions open = io::open_schema().parse(options.options.values());
-  return collection_at(input, open, default_cache_folder(), progress);
+  return collection_at(input, open, progress);
 }
 
 /// How many frames an INPUT has; 0 if it is no sequence.

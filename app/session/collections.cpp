@@ -23,15 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostCollections = 32;
 constexpr std::size_t kMostThumbnails = 4000;
-
-fs::path cache_file(const fs::path& folder, const fs::path& cache_folder) {
-  if (cache_folder.empty()) return {};
-  Fnv1a hash;
-  hash.add(fs::weakly_canonical(folder).string());
-  return cache_folder / "collections" / (hash_digits(hash.value()) + ".json");
-}
 
 /// Removes the oldest files of a folder that holds more than `most`, until `kept` are left.
 void prune(const fs::path& folder, std::size_t most, std::size_t kept) {
@@ -68,29 +60,14 @@ std::string long_name(const io::CollectionEntry& entry, std::size_t depth) {
 
 }  // namespace
 
-std::vector<io::CollectionEntry> list_collection(const fs::path& folder,
-                                                 const fs::path& cache_folder,
-                                                 const OnEntry& on_entry,
-                                                 const Progress& progress) {
-  const io::CollectionOptions options{.cache_file = cache_file(folder, cache_folder),
-                                      .on_entry = on_entry};
-  std::vector<io::CollectionEntry> entries = io::find_light_fields(folder, options, progress);
-  if (!cache_folder.empty()) {
-    prune(cache_folder / "collections", kMostCollections, kMostCollections);
-  }
-  return entries;
-}
-
 std::vector<io::CollectionEntry> collection_at(const std::string& input,
                                                const io::OpenOptions& options,
-                                               const fs::path& cache_folder,
                                                const Progress& progress) {
   std::error_code error;
   const bool may_be_one = builtin_scene_id(input).empty() && !io::wants_image_grid(options) &&
                           fs::is_directory(input, error);
   if (!may_be_one) return {};
-  std::vector<io::CollectionEntry> entries =
-      list_collection(input, cache_folder, nullptr, progress);
+  std::vector<io::CollectionEntry> entries = io::find_light_fields(input, {}, progress);
   const auto is_itself = [&](const io::CollectionEntry& entry) {
     return fs::equivalent(entry.path, input, error);
   };
@@ -131,7 +108,8 @@ fs::path cache_file(const io::CollectionEntry& entry, const fs::path& cache_fold
   Fnv1a hash;
   std::error_code error;
   hash.add(fs::weakly_canonical(entry.path, error).string());
-  hash.add_word(entry.fingerprint);
+  hash.add_word(entry.bytes);
+  hash.add_word(static_cast<std::uint64_t>(entry.modified));
   return cache_folder / "thumbnails" / (hash_digits(hash.value()) + ".png");
 }
 

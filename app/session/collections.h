@@ -8,26 +8,16 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
 namespace episcope {
 
-using OnEntry = std::function<void(const io::CollectionEntry&)>;
-
-/// Every light field below `folder` (io::find_light_fields). What their headers told is kept in
-/// `cache_folder`, of the collections that were listed last; empty = nothing is kept. Throws
-/// IoError, Cancelled.
-[[nodiscard]] std::vector<io::CollectionEntry> list_collection(
-    const std::filesystem::path& folder, const std::filesystem::path& cache_folder,
-    const OnEntry& on_entry, const Progress& progress);
-
 /// The light fields below `input` if it is a folder that holds some and is none itself; else empty.
 /// Those that cannot be opened are among them. Throws IoError, Cancelled.
-[[nodiscard]] std::vector<io::CollectionEntry> collection_at(
-    const std::string& input, const io::OpenOptions& options,
-    const std::filesystem::path& cache_folder, const Progress& progress);
+[[nodiscard]] std::vector<io::CollectionEntry> collection_at(const std::string& input,
+                                                             const io::OpenOptions& options,
+                                                             const Progress& progress);
 
 /// Thrown for a folder that was to be opened as a light field but holds several.
 class IsCollection : public IoError {

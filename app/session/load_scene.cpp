@@ -98,7 +98,7 @@ Scene load_builtin(const std::string& id, const LoadOptions& options, const Prog
 
 // A folder that cannot be opened may hold light fields below; a single one is what is meant.
 Scene open_light_field(const std::string& input, const io::OpenOptions& options,
-                       const std::filesystem::path& cache_folder, const Progress& progress) {
+                       const Progress& progress) {
   if (capture::is_lfp_container(input)) {
     if (const auto processed = capture::read_processed(input)) return scene_of(*processed);
     Scene scene = capture::decode_files({.raw = input}, {}, progress);
@@ -109,7 +109,7 @@ Scene open_light_field(const std::string& input, const io::OpenOptions& options,
   } catch (const io::Undecided&) {
     throw;
   } catch (const IoError&) {
-    const auto below = collection_at(input, options, cache_folder, progress);
+    const auto below = collection_at(input, options, progress);
     if (below.size() == 1) return io::open_scene(below.front().path, options, progress);
     if (!below.empty()) throw IsCollection(input, below.size());
     throw;
@@ -135,7 +135,7 @@ std::string builtin_scene_id(const std::string& input) {
 std::string reader_of(const std::string& input, const io::OpenOptions& options) {
   if (!builtin_scene_id(input).empty()) return scenes::kBuiltinReader;
   if (const io::Reader* reader = io::find_reader(input, options).reader) return reader->id;
-  const auto below = collection_at(input, options, {}, Progress());
+  const auto below = collection_at(input, options, Progress());
   return below.size() == 1 ? below.front().reader : std::string();
 }
 
@@ -144,7 +144,7 @@ Scene load_scene(const std::string& input, const LoadOptions& options, const Pro
   if (id.empty()) {
     io::OpenOptions open = options.open;
     open.needs_truth = options.needs_truth;
-    Scene scene = open_light_field(input, open, options.cache_folder, progress);
+    Scene scene = open_light_field(input, open, progress);
     if (options.needs_truth) read_kept_scribbles(scene, progress);
     return scene;
   }

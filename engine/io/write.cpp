@@ -11,11 +11,11 @@
 #include "engine/io/formats/quilt.h"
 #include "engine/io/formats/write_arrays.h"
 #include "engine/io/formats/write_scene.h"
+#include "engine/io/models/stored_maps.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
 namespace episcope::io {
 namespace {
@@ -47,34 +47,10 @@ void write_view_image(const fs::path& stem, const LightField& field, ViewIndex v
   }
 }
 
-void write_disparity_npy(const fs::path& path, const DisparityView& map) {
-  std::vector<float> marked;
-  marked.reserve(map.disparity.size());
-  for (int y = 0; y < map.disparity.height; ++y) {
-    for (int x = 0; x < map.disparity.width; ++x) {
-      marked.push_back(map.is_valid(y, x) ? map.disparity.at(y, x)
-                                          : std::numeric_limits<float>::quiet_NaN());
-    }
-  }
-  write_npy<float>(path,
-                   {static_cast<std::size_t>(map.disparity.height),
-                    static_cast<std::size_t>(map.disparity.width)},
-                   marked);
-}
-
-void write_label_map(const fs::path& path, ImageView<const std::int32_t> labels) {
-  write_npy<std::int32_t>(
-      path, {static_cast<std::size_t>(labels.height), static_cast<std::size_t>(labels.width)},
-      {labels.data, labels.size()});
-}
-
-void write_regions(const fs::path& folder, const GroundTruth& truth) {
-  for (const auto& [name, region] : truth.regions) {
-    write_npy<std::uint8_t>(
-        folder / ("mask_" + name + ".npy"),
-        {static_cast<std::size_t>(region.height()), static_cast<std::size_t>(region.width())},
-        {region.data(), region.size()});
-  }
+template <class T>
+void write_npy_map(const fs::path& path, ImageView<const T> map) {
+  write_npy<T>(path, {static_cast<std::size_t>(map.height), static_cast<std::size_t>(map.width)},
+               {map.data, map.size()});
 }
 
 std::uintmax_t grid_folder_bytes(const Scene& scene) {
@@ -102,13 +78,16 @@ void write_grid_folder(const fs::path& folder, const Scene& scene, const Progres
     const std::string name = names.of(view);
     write_view_image(place / name, field, view);
     if (truth.field.contains(view)) {
-      write_disparity_npy(place / ("disparity_" + name + ".npy"), truth.field.view(view));
+      write_npy_map<float>(place / ("disparity_" + name + ".npy"),
+                           marked_map(truth.field.view(view)).view());
     }
     if (!truth.labels.empty() && truth.labels.contains(view)) {
-      write_label_map(place / ("label_" + name + ".npy"), truth.labels.view(view));
+      write_npy_map(place / ("label_" + name + ".npy"), truth.labels.view(view));
     }
   });
-  write_regions(place, truth);
+  for (const auto& [name, region] : truth.regions) {
+    write_npy_map<std::uint8_t>(place / ("mask_" + name + ".npy"), region.view());
+  }
   progress.check();
   target.commit();
   progress.report(1);
@@ -148,6 +127,7 @@ constexpr FormContents kGrid{.floats = FloatsHeld::Exactly,
 constexpr FormContents kArray{.floats = FloatsHeld::Exactly};
 constexpr FormContents kArrays{.floats = FloatsHeld::Exactly,
                                .disparity = MapsHeld::All,
+                               .has_origin = true,
                                .labels = MapsHeld::All,
                                .has_valid = true};
 

@@ -31,7 +31,7 @@ options="-entropic=0 -len_control=0 -rss_limit_mb=2560 -malloc_limit_mb=1024 -ti
 # length_of NAME: texts are short, and arrays of a few views take little more than their headers.
 length_of() {
   case "$1" in
-    capture | collection | config | excerpt | manifest | mesh | names | poses | project) echo 4096 ;;
+    capture | config | excerpt | manifest | mesh | names | poses | project) echo 4096 ;;
     labels | map | numpy | picture | result | strokes | weights) echo 8192 ;;
     *) echo 16384 ;;
   esac

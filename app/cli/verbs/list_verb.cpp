@@ -6,7 +6,6 @@
 #include "app/cli/verbs/verbs.h"
 #include "app/session/collections.h"
 #include "app/session/scene_summary.h"
-#include "app/session/user_folders.h"
 #include "engine/core/error.h"
 #include "engine/core/text.h"
 #include "engine/core/text_table.h"
@@ -50,9 +49,8 @@ std::vector<io::CollectionEntry> list_all(const ListRequest& request, const Job&
   for (std::size_t i = 0; i < request.folders.size(); ++i) {
     const auto count = static_cast<double>(request.folders.size());
     const double begin = static_cast<double>(i) / count;
-    for (io::CollectionEntry& entry :
-         list_collection(request.folders[i], default_cache_folder(), nullptr,
-                         job.progress().part(begin, begin + 1 / count))) {
+    for (io::CollectionEntry& entry : io::find_light_fields(
+             request.folders[i], {}, job.progress().part(begin, begin + 1 / count))) {
       if (seen.insert(fs::weakly_canonical(entry.path)).second) all.push_back(std::move(entry));
     }
   }

@@ -241,14 +241,13 @@ void CollectionController::openCollection(const QString& folder) {
   const quint64 search = ++search_;
   job_ = bench_.jobs.start<std::vector<io::CollectionEntry>>(
       Lane::List, tr("Listing %1").arg(QFileInfo(folder).fileName()),
-      [this, search, folder, cache = bench_.opener.cacheFolder(),
-       post = queued_post(&bench_.jobs)](const Progress& progress) {
+      [this, search, folder, post = queued_post(&bench_.jobs)](const Progress& progress) {
         const auto on_entry = [&](const io::CollectionEntry& entry) {
           post([this, search, entry] {
             if (search == search_) add(entry);
           });
         };
-        return list_collection(folder.toStdString(), cache, on_entry, progress);
+        return io::find_light_fields(folder.toStdString(), on_entry, progress);
       },
       [this, search](const std::vector<io::CollectionEntry>& entries) {
         if (search == search_) finish(entries);

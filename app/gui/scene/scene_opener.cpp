@@ -125,7 +125,7 @@ ScenePtr read_as_told(const std::string& input, const LoadOptions& options,
                       const Progress& progress) {
   // Which of several light fields of a folder is meant is for the user to say.
   if (io::given_options(options.open).empty()) {
-    const auto below = collection_at(input, options.open, options.cache_folder, progress);
+    const auto below = collection_at(input, options.open, progress);
     if (below.size() > 1) throw IsCollection(input, below.size());
   }
   return std::make_shared<const Scene>(load_scene(input, options, progress));

@@ -324,18 +324,36 @@ class BackgroundFlush {
   /// Whether the present contents of the file and its name are on the disk.
   enum class Start { Flushed, Unflushed };
 
-  BackgroundFlush(int descriptor, std::filesystem::path path, Start start);
+  BackgroundFlush(int descriptor, std::filesystem::path path, Start start)
+      : descriptor_(descriptor),
+        path_(std::move(path)),
+        written_(start == Start::Unflushed ? 1 : 0),
+        is_named_(start == Start::Flushed),
+        thread_([this](const std::stop_token& stop) { run(stop); }) {}
   /// Flushes first.
-  ~BackgroundFlush();
+  ~BackgroundFlush() {
+    thread_.request_stop();
+    thread_.join();
+  }
   BackgroundFlush(const BackgroundFlush&) = delete;
   BackgroundFlush& operator=(const BackgroundFlush&) = delete;
 
   /// Announces that something was written.
-  void request();
+  void request() {
+    const std::scoped_lock lock(mutex_);
+    ++written_;
+    changed_.notify_all();
+  }
   /// Waits until everything written is on the disk, or until a flush fails.
-  void wait();
+  void wait() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return flushed_ == written_ || error_ != 0; });
+  }
   /// `errno` of a flush that failed; 0 = none did.
-  [[nodiscard]] int error() const;
+  [[nodiscard]] int error() const {
+    const std::scoped_lock lock(mutex_);
+    return error_;
+  }
 
  private:
   void run(const std::stop_token& stop);
@@ -350,34 +368,6 @@ class BackgroundFlush {
   int error_ = 0;
   std::jthread thread_;
 };
-
-BackgroundFlush::BackgroundFlush(int descriptor, std::filesystem::path path, Start start)
-    : descriptor_(descriptor),
-      path_(std::move(path)),
-      written_(start == Start::Unflushed ? 1 : 0),
-      is_named_(start == Start::Flushed),
-      thread_([this](const std::stop_token& stop) { run(stop); }) {}
-
-BackgroundFlush::~BackgroundFlush() {
-  thread_.request_stop();
-  thread_.join();
-}
-
-void BackgroundFlush::request() {
-  const std::scoped_lock lock(mutex_);
-  ++written_;
-  changed_.notify_all();
-}
-
-void BackgroundFlush::wait() {
-  std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] { return flushed_ == written_ || error_ != 0; });
-}
-
-int BackgroundFlush::error() const {
-  const std::scoped_lock lock(mutex_);
-  return error_;
-}
 
 void BackgroundFlush::run(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);

@@ -116,7 +116,8 @@ void deflate_views(hid_t creation, std::vector<hsize_t> extent) {
 }  // namespace
 
 template <class T>
-void Hdf5Output::create_dataset(const std::string& name, const Hdf5Shape& shape, bool is_reserved) {
+void Hdf5Output::add_dataset(const std::string& name, const Hdf5Shape& shape,
+                             const std::string& axes, const std::string& units, bool is_reserved) {
   const Hdf5Lock session;
   const std::vector<hsize_t> extent(shape.begin(), shape.end());
   const Hdf5Handle space(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr),
@@ -130,20 +131,6 @@ void Hdf5Output::create_dataset(const std::string& name, const Hdf5Shape& shape,
       H5Dcreate2(file_, name.c_str(), native_type<T>(), space, H5P_DEFAULT, creation, H5P_DEFAULT);
   require(id >= 0);
   datasets_[name] = id;
-}
-
-template <class T>
-void Hdf5Output::add_dataset(const std::string& name, const Hdf5Shape& shape,
-                             const std::string& axes, const std::string& units) {
-  create_dataset<T>(name, shape, false);
-  set_text(name, "axes", axes);
-  if (!units.empty()) set_text(name, "units", units);
-}
-
-template <class T>
-void Hdf5Output::reserve_dataset(const std::string& name, const Hdf5Shape& shape,
-                                 const std::string& axes, const std::string& units) {
-  create_dataset<T>(name, shape, true);
   set_text(name, "axes", axes);
   if (!units.empty()) set_text(name, "units", units);
 }
@@ -159,17 +146,13 @@ void Hdf5Output::write(const std::string& name, const Hdf5Block& block, const T*
 }
 
 template void Hdf5Output::add_dataset<std::uint8_t>(const std::string&, const Hdf5Shape&,
-                                                    const std::string&, const std::string&);
+                                                    const std::string&, const std::string&, bool);
 template void Hdf5Output::add_dataset<std::uint16_t>(const std::string&, const Hdf5Shape&,
-                                                     const std::string&, const std::string&);
+                                                     const std::string&, const std::string&, bool);
 template void Hdf5Output::add_dataset<std::int32_t>(const std::string&, const Hdf5Shape&,
-                                                    const std::string&, const std::string&);
+                                                    const std::string&, const std::string&, bool);
 template void Hdf5Output::add_dataset<float>(const std::string&, const Hdf5Shape&,
-                                             const std::string&, const std::string&);
-template void Hdf5Output::reserve_dataset<std::uint8_t>(const std::string&, const Hdf5Shape&,
-                                                        const std::string&, const std::string&);
-template void Hdf5Output::reserve_dataset<float>(const std::string&, const Hdf5Shape&,
-                                                 const std::string&, const std::string&);
+                                             const std::string&, const std::string&, bool);
 template void Hdf5Output::write(const std::string&, const Hdf5Block&, const std::uint8_t*);
 template void Hdf5Output::write(const std::string&, const Hdf5Block&, const std::uint16_t*);
 template void Hdf5Output::write(const std::string&, const Hdf5Block&, const std::int32_t*);

@@ -44,15 +44,12 @@ class Hdf5Output {
   void add_group(const std::string& name);
   /// Sets how datasets added later are stored; datasets of less than two axes are plain.
   void set_storage(Hdf5Storage storage) { storage_ = storage; }
-  /// Adds a dataset with its attributes `axes` ("v,u,y,x") and `units`. T as in `Hdf5Input::read`.
+  /// Adds a dataset with its attributes `axes` ("v,u,y,x") and `units`. If `is_reserved`, allocates
+  /// its place in the file, for others to fill (Hdf5Input::place_in_file). T as in
+  /// `Hdf5Input::read`.
   template <class T>
   void add_dataset(const std::string& name, const Hdf5Shape& shape, const std::string& axes,
-                   const std::string& units);
-  /// Adds a dataset and allocates its place in the file, for others to fill
-  /// (Hdf5Input::place_in_file).
-  template <class T>
-  void reserve_dataset(const std::string& name, const Hdf5Shape& shape, const std::string& axes,
-                       const std::string& units);
+                   const std::string& units, bool is_reserved = false);
   template <class T>
   void write(const std::string& name, const Hdf5Block& block, const T* in);
   [[nodiscard]] bool has(const std::string& dataset) const { return datasets_.contains(dataset); }
@@ -74,8 +71,6 @@ class Hdf5Output {
   void close();
 
  private:
-  template <class T>
-  void create_dataset(const std::string& name, const Hdf5Shape& shape, bool is_reserved);
   void set_attribute(const std::string& object, const std::string& name, std::int64_t type,
                      const Hdf5Shape& shape, const void* value);
 

@@ -6,6 +6,7 @@
 #include "engine/io/base/files.h"
 #include "engine/io/base/quiet_decoding.h"
 #include "engine/io/base/radiance.h"
+#include "engine/io/base/rare_tiff.h"
 #include "engine/io/base/tiff_file.h"
 
 #include <fmt/format.h>
@@ -186,7 +187,11 @@ DecodedMat read_mat(const fs::path& path, PicturePart part) {
   } catch (const cv::Exception&) {
     decoded.release();
   }
-  if (decoded.empty()) refuse_image(path);
+  if (decoded.empty()) {
+    const std::vector<cv::Mat> rare = decode_rare_tiff(path, 1);
+    if (rare.empty()) refuse_image(path);
+    decoded = rare.front();
+  }
   decoded = in_read_type(decoded);
   return exr ? in_display(path, decoded, *exr, part) : DecodedMat{decoded};
 }
@@ -252,6 +257,7 @@ std::vector<SeenImage> decode_pages(const fs::path& path, int count) {
   } catch (const cv::Exception&) {
     decoded.clear();
   }
+  if (static_cast<int>(decoded.size()) != count) decoded = decode_rare_tiff(path, count);
   if (static_cast<int>(decoded.size()) != count) refuse_image(path);
   std::vector<SeenImage> pages;
   for (cv::Mat& page : decoded) {

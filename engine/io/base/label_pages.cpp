@@ -7,7 +7,7 @@
 #include "engine/io/base/atomic_file.h"
 #include "engine/io/base/files.h"
 #include "engine/io/base/quiet_decoding.h"
-#include "engine/io/base/tiff_file.h"
+#include "engine/io/base/rare_tiff.h"
 
 #include <fmt/format.h>
 #include <png.h>
@@ -25,137 +25,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Tags of TIFF.
-constexpr std::uint64_t kBits = 258, kPhotometric = 262, kDescription = 270, kSamples = 277,
-                        kColorMap = 320, kSampleFormat = 339;
-constexpr std::uint64_t kUnsigned = 1, kSigned = 2, kFloat = 3;  // values of kSampleFormat
-constexpr std::uint64_t kBlackIsZero = 1, kPalette = 3;          // values of kPhotometric
+constexpr std::uint64_t kDescription = 270;  ///< A tag of TIFF.
 constexpr std::uint64_t kLongestText = 64 << 10;
-
-struct PageForm {
-  std::uint64_t bits = 1;
-  std::uint64_t format = kUnsigned;
-  bool is_gray = true;
-  std::vector<std::array<std::uint8_t, 3>> palette{};
-};
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& why) {
   throw IoError(path, why + "; save the labels as PNG, .npy or TIFF of 8, 16 or 32 bits");
-}
-
-/// What OpenCV decodes of a TIFF page. It refuses integers of more than 16 bits that have no sign
-/// or 64 bits, and turns palettes into colors. So it gets a copy of the directory of the page that
-/// calls the first floats and the second gray, behind the end of the file in memory; bits stay as
-/// they are.
-class TiffPages {
- public:
-  explicit TiffPages(const fs::path& path) : path_(path), file_(path) {
-    bytes_ = file_.text(0, fs::file_size(path));
-  }
-
-  [[nodiscard]] TiffFile& file() { return file_; }
-  [[nodiscard]] PageForm form(std::uint64_t directory);
-  [[nodiscard]] cv::Mat decode(std::uint64_t directory, const PageForm& form);
-
- private:
-  [[nodiscard]] std::string packed(std::uint64_t number, std::uint64_t bytes) const {
-    std::string text;
-    for (std::uint64_t i = 0; i < bytes; ++i) {
-      const std::uint64_t place = file_.is_little_endian() ? i : bytes - 1 - i;
-      text += static_cast<char>(number >> (8 * place) & 0xFF);
-    }
-    return text;
-  }
-  /// An entry of one number of 16 bits.
-  [[nodiscard]] std::string entry(std::uint64_t tag, std::uint64_t number) const {
-    constexpr std::uint64_t kShort = 3;
-    const std::uint64_t place = file_.place_bytes();
-    return packed(tag, 2) + packed(kShort, 2) + packed(1, place) + packed(number, 2) +
-           std::string(place - 2, '\0');
-  }
-  /// Begins the file with a copy of a directory in which these entries are changed or added.
-  void begin_with(std::uint64_t directory, std::map<std::uint64_t, std::string> entries);
-
-  const fs::path& path_;
-  TiffFile file_;
-  std::string bytes_;
-};
-
-PageForm TiffPages::form(std::uint64_t directory) {
-  const auto number = [&](std::uint64_t tag, std::uint64_t otherwise) {
-    const auto value = file_.tag(directory, tag);
-    return value ? value->number : otherwise;
-  };
-  PageForm form{number(kBits, 1), number(kSampleFormat, kUnsigned)};
-  const std::uint64_t photometric = number(kPhotometric, kBlackIsZero);
-  const auto map = file_.tag(directory, kColorMap);
-  const bool has_palette = photometric == kPalette && form.bits == 8 && map;
-  form.is_gray = number(kSamples, 1) < 3 && (photometric <= kBlackIsZero || has_palette);
-  constexpr std::size_t kColors = 256;
-  constexpr std::uint64_t kBytes = 2;  // of a level, all reds first
-  if (!has_palette || map->bytes != 3 * kColors * kBytes) return form;
-  for (std::size_t i = 0; i < kColors; ++i) {
-    std::array<std::uint8_t, 3> color{};
-    for (std::size_t c = 0; c < 3; ++c) {
-      const std::uint64_t level = file_.at(map->place + kBytes * (c * kColors + i), kBytes);
-      color[c] = static_cast<std::uint8_t>(level >> 8);
-    }
-    form.palette.push_back(color);
-  }
-  return form;
-}
-
-void TiffPages::begin_with(std::uint64_t directory, std::map<std::uint64_t, std::string> entries) {
-  const std::uint64_t count_bytes = file_.place_bytes() == 8 ? 8 : 2;
-  const std::uint64_t count = file_.at(directory, count_bytes);
-  for (std::uint64_t i = 0; i < count; ++i) {
-    const std::uint64_t place = directory + count_bytes + i * file_.entry_bytes();
-    std::string stored = file_.text(place, file_.entry_bytes());
-    if (stored.size() < file_.entry_bytes()) break;
-    entries.emplace(file_.at(place, 2), std::move(stored));
-  }
-  if (bytes_.size() % 2 != 0) bytes_ += '\0';
-  const std::uint64_t begin = bytes_.size();
-  bytes_ += packed(entries.size(), count_bytes);
-  for (const auto& [tag, stored] : entries) bytes_ += stored;
-  bytes_ += packed(0, file_.place_bytes());
-  bytes_.replace(file_.place_of_start(), file_.place_bytes(), packed(begin, file_.place_bytes()));
-}
-
-cv::Mat TiffPages::decode(std::uint64_t directory, const PageForm& form) {
-  std::map<std::uint64_t, std::string> changed;
-  if (form.bits > 16) changed[kSampleFormat] = entry(kSampleFormat, kFloat);
-  if (!form.palette.empty()) changed[kPhotometric] = entry(kPhotometric, kBlackIsZero);
-  begin_with(directory, std::move(changed));
-  const QuietDecoding quiet;
-  cv::Mat decoded;
-  try {
-    const cv::Mat whole(1, static_cast<int>(bytes_.size()), CV_8U, bytes_.data());
-    decoded = cv::imdecode(whole, cv::IMREAD_UNCHANGED);
-  } catch (const cv::Exception&) {
-    decoded.release();
-  }
-  if (decoded.empty()) refuse(path_, "a page of this TIFF file cannot be decoded");
-  return decoded;
-}
-
-NumberType type_of(const fs::path& path, const PageForm& form) {
-  const bool is_signed = form.format == kSigned;
-  if (form.format == kFloat && form.bits == 32) return NumberType::Float32;
-  if (form.format == kFloat && form.bits == 64) return NumberType::Float64;
-  if (form.format != kFloat && form.bits <= 8)
-    return is_signed ? NumberType::Int8 : NumberType::UInt8;
-  if (form.format != kFloat && form.bits == 16) {
-    return is_signed ? NumberType::Int16 : NumberType::UInt16;
-  }
-  if (form.format != kFloat && form.bits == 32) {
-    return is_signed ? NumberType::Int32 : NumberType::UInt32;
-  }
-  if (form.format != kFloat && form.bits == 64) {
-    return is_signed ? NumberType::Int64 : NumberType::UInt64;
-  }
-  refuse(path, fmt::format("this TIFF file has {} of {} bits, which are not read",
-                           form.format == kFloat ? "floats" : "samples", form.bits));
 }
 
 template <class T>
@@ -168,7 +42,12 @@ void require_whole(const fs::path& path, const std::uint8_t* row, int width) {
 }
 
 LabelPicture numbers_of(const fs::path& path, const cv::Mat& decoded, const PageForm& form) {
-  const NumberType type = type_of(path, form);
+  const auto known = type_of(form);
+  if (!known) {
+    refuse(path, fmt::format("this TIFF file has {} of {} bits, which are not read",
+                             form.format == kTiffFloat ? "floats" : "samples", form.bits));
+  }
+  const NumberType type = *known;
   if (decoded.channels() != 1 || decoded.elemSize1() != byte_size(type)) {
     refuse(path, "a page of this TIFF file cannot be decoded");
   }
@@ -177,6 +56,12 @@ LabelPicture numbers_of(const fs::path& path, const cv::Mat& decoded, const Page
     const std::uint8_t* row = decoded.ptr(y);
     if (type == NumberType::Float32) require_whole<float>(path, row, decoded.cols);
     if (type == NumberType::Float64) require_whole<double>(path, row, decoded.cols);
+    if (type == NumberType::Float16) {
+      std::vector<float> values(static_cast<std::size_t>(decoded.cols));
+      convert_numbers(type, row, values.size(), values.data());
+      require_whole<float>(path, reinterpret_cast<const std::uint8_t*>(values.data()),
+                           decoded.cols);
+    }
     convert_numbers(type, row, static_cast<std::size_t>(decoded.cols), picture.numbers.row(y));
   }
   if (form.bits >= 8) return picture;
@@ -227,13 +112,12 @@ std::vector<LabelPicture> decode_label_pages(const fs::path& path) {
   require_readable_file(path);
   require_plausible_picture(path);
   constexpr int kMostPages = 1 << 14;
-  constexpr std::uintmax_t kLargest = std::uintmax_t{1} << 30;  // what a cv::Mat of bytes holds
   std::vector<LabelPicture> pictures;
   if (!TiffFile(path).is_tiff()) {
     pictures.push_back(decode_label_picture(path));
     return pictures;
   }
-  if (fs::file_size(path) > kLargest) refuse(path, "this TIFF file has more than 1 GiB");
+  if (fs::file_size(path) > kLargestTiff) refuse(path, "this TIFF file has more than 1 GiB");
   TiffPages pages(path);
   const std::vector<std::uint64_t> directories = pages.file().directories(kMostPages);
   if (directories.empty()) refuse(path, "this TIFF file is damaged");
@@ -241,6 +125,7 @@ std::vector<LabelPicture> decode_label_pages(const fs::path& path) {
   for (const std::uint64_t directory : directories) {
     const PageForm form = pages.form(directory);
     const cv::Mat decoded = pages.decode(directory, form);
+    if (decoded.empty()) refuse(path, "a page of this TIFF file cannot be decoded");
     pictures.push_back(form.is_gray ? numbers_of(path, decoded, form) : colors_of(path, decoded));
   }
   return pictures;

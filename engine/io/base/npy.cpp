@@ -160,20 +160,6 @@ std::string npy_header(const ArrayShape& shape, NumberType type) {
 
 namespace {
 
-/// Reads up to `bytes`; fewer at the end of the file or if the disk fails.
-std::size_t read_at(const FileDescriptor& file, std::uint64_t offset, std::size_t bytes,
-                    std::uint8_t* out) {
-  std::size_t done = 0;
-  while (done < bytes) {
-    const ssize_t got =
-        pread(file.id(), out + done, bytes - done, static_cast<off_t>(offset + done));
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) break;
-    done += static_cast<std::size_t>(got);
-  }
-  return done;
-}
-
 /// Height and width: the lengths other than 1, or the last two.
 ArrayShape map_size(const ArrayInput& array) {
   ArrayShape size;
@@ -213,7 +199,7 @@ NpyFile::Place NpyFile::find(const std::filesystem::path& path, std::uint64_t of
   const std::uint64_t size = std::filesystem::file_size(path);
   const std::uint64_t held = std::min(bytes, size - std::min(offset, size));
   std::vector<std::uint8_t> begin(std::min<std::size_t>(held, kLongestNpyHeader + kNpyPrefix));
-  begin.resize(read_at(place.file, offset, begin.size(), begin.data()));
+  if (!read_all_at(place.file.id(), begin, offset)) begin.clear();
   place.header =
       parse_npy_header(path, {reinterpret_cast<const char*>(begin.data()), begin.size()});
   const std::size_t elements = element_count(place.header.shape);
@@ -239,7 +225,7 @@ NpyFile::NpyFile(const std::filesystem::path& path, Place place)
 
 void NpyFile::read_elements(std::size_t first, std::size_t count, std::uint8_t* out) const {
   const std::size_t width = byte_size(type());
-  if (read_at(file_, samples_begin_ + first * width, count * width, out) != count * width) {
+  if (!read_all_at(file_.id(), {out, count * width}, samples_begin_ + first * width)) {
     throw IoError(path(), "the file cannot be read to its end; copy it again or check the disk");
   }
   if (header_.is_big_endian) swap_bytes(type(), count, out);

@@ -168,75 +168,33 @@ void write_label_probabilities(const std::filesystem::path& path, int label_coun
   target.commit();
 }
 
-struct ProbabilityFile::State {
-  State(const std::filesystem::path& path) : file(path) {}
-
-  Hdf5Input file;
-  Hdf5Shape shape;
-  std::size_t label_axis = 0;
-  GridShape grid;
-  ViewFlip flip;
-};
-
 ProbabilityFile::ProbabilityFile(const std::filesystem::path& path, const Scene& scene)
-    : state_(std::make_unique<State>(path)) {
-  State& state = *state_;
-  const LightField& field = *scene.light_field;
-  state.grid = field.grid();
-  state.flip = flip_of(scene.convention);
-  state.shape = state.file.dataset(kProbabilityData).shape;
-  require_fit(path, kProbabilityData, state.shape, field);
-  state.label_axis = *label_axis(state.shape, field);
-}
-
-ProbabilityFile::~ProbabilityFile() = default;
-ProbabilityFile::ProbabilityFile(ProbabilityFile&&) noexcept = default;
-ProbabilityFile& ProbabilityFile::operator=(ProbabilityFile&&) noexcept = default;
-
-int ProbabilityFile::label_count() const {
-  return static_cast<int>(state_->shape[state_->label_axis]);
-}
-
-bool ProbabilityFile::contains(ViewIndex view) const {
-  const bool has_all = state_->shape.size() == 5;
-  return has_all ? state_->grid.contains(view) : view == state_->grid.center();
+    : file_(path), grid_(scene.light_field->grid()), flip_(flip_of(scene.convention)) {
+  layout_.shape = file_.dataset(kProbabilityData).shape;
+  require_fit(path, kProbabilityData, layout_.shape, *scene.light_field);
+  layout_.axes = layout_.shape.size() == 5 ? "vuyx" : "yx";
+  layout_.axes.insert(*label_axis(layout_.shape, *scene.light_field), 1, 'c');
 }
 
 Image<float> ProbabilityFile::view(ViewIndex view) const {
-  const State& state = *state_;
-  Hdf5Block block{Hdf5Shape(state.shape.size(), 0), state.shape};
-  if (state.shape.size() == 5) {
-    const ViewIndex stored = flipped(view, state.grid, state.flip);
-    const std::size_t v_axis = state.label_axis == 0 ? 1 : 0;
-    const std::size_t u_axis = state.label_axis <= 1 ? 2 : 1;
+  Hdf5Block block{Hdf5Shape(layout_.shape.size(), 0), layout_.shape};
+  if (layout_.has('v')) {
+    const ViewIndex stored = flipped(view, grid_, flip_);
+    const std::size_t v_axis = layout_.axes.find('v'), u_axis = layout_.axes.find('u');
     block.start[v_axis] = static_cast<std::size_t>(stored.v);
     block.start[u_axis] = static_cast<std::size_t>(stored.u);
     block.count[v_axis] = block.count[u_axis] = 1;
   }
-  std::size_t total = 1;
-  for (const std::size_t count : block.count) total *= count;
-  std::vector<float> stored(total);
-  state.file.read(kProbabilityData, block, stored.data());
-
-  // Strides of y, x and label in the block just read.
-  std::vector<std::size_t> strides(block.count.size(), 1);
-  for (std::size_t axis = strides.size() - 1; axis-- > 0;) {
-    strides[axis] = strides[axis + 1] * block.count[axis + 1];
-  }
-  std::vector<std::size_t> pixel_axes;
-  for (std::size_t axis = 0; axis < strides.size(); ++axis) {
-    if (axis != state.label_axis) pixel_axes.push_back(axis);
-  }
-  const std::size_t y_axis = pixel_axes[pixel_axes.size() - 2];
-  const std::size_t x_axis = pixel_axes.back();
-  Image<float> out(static_cast<int>(block.count[y_axis]), static_cast<int>(block.count[x_axis]),
-                   label_count());
+  std::vector<float> stored(element_count(block.count));
+  file_.read(kProbabilityData, block, stored.data());
+  const ArrayLayout read{block.count, layout_.axes};
+  Image<float> out(read.height(), read.width(), label_count());
   for (int y = 0; y < out.height(); ++y) {
     for (int x = 0; x < out.width(); ++x) {
       for (int label = 0; label < out.channels(); ++label) {
-        out.at(y, x, label) = stored[static_cast<std::size_t>(y) * strides[y_axis] +
-                                     static_cast<std::size_t>(x) * strides[x_axis] +
-                                     static_cast<std::size_t>(label) * strides[state.label_axis]];
+        out.at(y, x, label) = stored[static_cast<std::size_t>(y) * read.stride('y') +
+                                     static_cast<std::size_t>(x) * read.stride('x') +
+                                     static_cast<std::size_t>(label) * read.stride('c')];
       }
     }
   }

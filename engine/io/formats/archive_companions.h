@@ -52,19 +52,20 @@ class ProbabilityFile {
   /// Finds the axis of labels: the one left besides the axes of views and pixels of `scene`. Throws
   /// IoError if the shape does not fit.
   ProbabilityFile(const std::filesystem::path& path, const Scene& scene);
-  ~ProbabilityFile();
-  ProbabilityFile(ProbabilityFile&&) noexcept;
-  ProbabilityFile& operator=(ProbabilityFile&&) noexcept;
 
-  [[nodiscard]] int label_count() const;
+  [[nodiscard]] int label_count() const { return static_cast<int>(layout_.length('c')); }
   /// Views in the file: all, or the center view only.
-  [[nodiscard]] bool contains(ViewIndex view) const;
+  [[nodiscard]] bool contains(ViewIndex view) const {
+    return layout_.has('v') ? grid_.contains(view) : view == grid_.center();
+  }
   /// `[y][x][label]` of a view in canonical order. Precondition: `contains(view)`. Throws IoError.
   [[nodiscard]] Image<float> view(ViewIndex view) const;
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  Hdf5Input file_;
+  ArrayLayout layout_;  ///< Labels are channels.
+  GridShape grid_;
+  ViewFlip flip_;
 };
 
 }  // namespace episcope::io

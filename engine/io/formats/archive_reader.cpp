@@ -11,6 +11,7 @@
 #include "engine/io/formats/write_scene.h"
 #include "engine/io/models/array_samples.h"
 #include "engine/io/models/assemble_scene.h"
+#include "engine/io/models/estimated.h"
 #include "engine/io/models/load_views.h"
 #include "engine/io/models/order/view_axes.h"
 #include "engine/io/models/sidecar_maps/map_name.h"
@@ -107,19 +108,6 @@ struct ArchiveLabels {
   std::optional<Provenance> estimated{};
 };
 
-/// How a dataset was estimated, if the file says that it is a result.
-std::optional<Provenance> read_estimated(const Hdf5Input& file, const std::string& name) {
-  if (!file.has_numbers(name)) return std::nullopt;
-  const auto method = file.text(name, kEstimatedBy);
-  if (!method) return std::nullopt;
-  Provenance estimated;
-  estimated.method = *method;
-  estimated.parameters = parameters_from_json(file.text(name, kEstimateParameters).value_or("{}"));
-  estimated.source = file.text(name, kEstimateSource).value_or("");
-  estimated.version = file.text(name, kEstimateVersion).value_or("");
-  return estimated;
-}
-
 bool contains_zero(const ViewStack<std::int32_t>& labels) {
   return !labels.empty() && std::find(labels.data(), labels.data() + labels.size(), 0) !=
                                 labels.data() + labels.size();
@@ -134,7 +122,7 @@ ArchiveLabels read_archive_labels(const Hdf5Input& file, const FieldShape& shape
   if (file.has_numbers(kTrueLabels)) {
     found.labels = read_maps<std::int32_t>(file, kTrueLabels, shape, progress.part(0, 0.9));
     found.scribbles.labels = read_label_list(file, kTrueLabels);
-    found.estimated = read_estimated(file, kTrueLabels);
+    found.estimated = estimated_in(file, kTrueLabels);
   }
   if (!file.has_numbers("SCRIBBLES")) return found;
   StoredScribbles stored =
@@ -433,8 +421,9 @@ class ArchiveReading {
       infos_ = add_maps_named_after(path_, options_, parts_, {account_, report_}, progress);
       return;
     }
-    truth.estimated = read_estimated(file_, kTrueDepth);
-    if (!truth.estimated) truth.estimated = read_estimated(file_, "GT_DEPTH_FOREGROUND");
+    for (const char* name : {kTrueDepth, "GT_DEPTH_FOREGROUND"}) {
+      if (!truth.estimated && file_.has_numbers(name)) truth.estimated = estimated_in(file_, name);
+    }
     if (!truth.estimated || !options_.needs_truth) return;
     report_.warnings.push_back(
         fmt::format(finding_text("truth.estimated"), estimated_text(*truth.estimated)));

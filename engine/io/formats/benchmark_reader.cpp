@@ -12,6 +12,7 @@
 #include "engine/io/formats/image_grid.h"
 #include "engine/io/formats/write_scene.h"
 #include "engine/io/models/assemble_scene.h"
+#include "engine/io/models/estimated.h"
 #include "engine/io/models/load_views.h"
 #include "engine/io/models/names/view_files.h"
 #include "engine/io/models/open_options.h"

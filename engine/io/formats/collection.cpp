@@ -2,23 +2,18 @@
 #include "engine/io/formats/collection.h"
 
 #include "engine/core/error.h"
-#include "engine/core/hash.h"
 #include "engine/core/text.h"
-#include "engine/core/version.h"
-#include "engine/io/base/atomic_file.h"
 #include "engine/io/base/files.h"
 #include "engine/io/base/foreign_content.h"
 #include "engine/io/base/hdf5_file.h"
 #include "engine/io/base/image_file.h"
 #include "engine/io/base/image_header.h"
-#include "engine/io/base/json.h"
 #include "engine/io/models/choose_layout.h"
+#include "engine/io/models/labels/color_table.h"
 #include "engine/io/models/labels/label_pictures.h"
 #include "engine/io/models/mat5.h"
 #include "engine/io/models/names/view_folders.h"
 #include "engine/io/models/numpy_file.h"
-
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
@@ -109,8 +104,8 @@ bool are_maps_of(const CollectionEntry& inside, const CollectionEntry& views) {
 
 class CollectionSearch {
  public:
-  CollectionSearch(const CollectionOptions& options, const Progress& progress)
-      : options_(options), cache_(options.cache_file), progress_(progress) {}
+  CollectionSearch(const OnCollectionEntry& on_entry, const Progress& progress)
+      : on_entry_(on_entry), progress_(progress) {}
 
   void visit(const fs::path& folder, int depth) {
     progress_.check();
@@ -130,7 +125,6 @@ class CollectionSearch {
   }
 
   std::vector<CollectionEntry> finish() {
-    cache_.save();
     std::ranges::sort(found_, {}, &CollectionEntry::path);
     add_results(found_, results_);
     return std::move(found_);
@@ -139,9 +133,7 @@ class CollectionSearch {
  private:
   void look_into(const fs::path& folder, int depth) {
     const FolderListing listing = list_folder(folder);
-    const FolderRecord* kept = cache_.find(folder, listing.fingerprint);
-    const FolderRecord record = kept ? *kept : scan_folder(listing);
-    cache_.keep(folder, listing.fingerprint, record);
+    const FolderRecord record = scan_folder(listing);
     results_.insert(results_.end(), record.results.begin(), record.results.end());
     const auto take_all = [&] {
       std::vector<CollectionEntry> entries = record.entries;
@@ -173,14 +165,13 @@ class CollectionSearch {
   }
 
   void take(CollectionEntry entry) {
-    if (options_.on_entry) options_.on_entry(entry);
+    if (on_entry_) on_entry_(entry);
     // They are given out again when all are known.
     entry.results.clear();
     found_.push_back(std::move(entry));
   }
 
-  const CollectionOptions& options_;
-  CollectionCache cache_;
+  const OnCollectionEntry& on_entry_;
   Progress progress_;
   std::set<std::string> seen_;
   std::vector<CollectionEntry> found_;
@@ -190,7 +181,7 @@ class CollectionSearch {
 }  // namespace
 
 std::vector<CollectionEntry> find_light_fields(const fs::path& root,
-                                               const CollectionOptions& options,
+                                               const OnCollectionEntry& on_entry,
                                                const Progress& progress) {
   std::error_code error;
   if (!fs::exists(root, error)) {
@@ -202,158 +193,9 @@ std::vector<CollectionEntry> find_light_fields(const fs::path& root,
     return entries;
   }
   progress.step("looking for light fields");
-  CollectionSearch search(options, progress);
+  CollectionSearch search(on_entry, progress);
   search.visit(root, 0);
   return search.finish();
-}
-
-namespace {
-
-using Json = nlohmann::json;
-constexpr int kForm = 6;  ///< Counts up when readers find other light fields.
-
-/// Other readers may find other light fields.
-std::string key_of_program() {
-  std::string key = std::string(kVersion) + " " + std::to_string(kForm);
-  for (const Reader& reader : readers()) key += std::string(" ") + reader.id;
-  return key;
-}
-
-Json json_of(const ListedResult& result) {
-  return {{"path", result.path.string()}, {"method", result.method}, {"source", result.source}};
-}
-
-Json json_of(const SceneProbe& probe) {
-  return {{"grid", {probe.grid.v, probe.grid.u}},
-          {"size", {probe.height, probe.width, probe.channels}},
-          {"type", probe.sample_type ? static_cast<int>(*probe.sample_type) : -1},
-          {"truth", probe.truth},
-          {"labels", probe.labels},
-          {"list", probe.list},
-          {"frames", probe.frames}};
-}
-
-Json json_of(const CollectionEntry& entry) {
-  return {
-      {"path", entry.path.string()},      {"name", entry.name},      {"reader", entry.reader},
-      {"probe", json_of(entry.probe)},    {"bytes", entry.bytes},    {"modified", entry.modified},
-      {"fingerprint", entry.fingerprint}, {"problem", entry.problem}};
-}
-
-template <class T>
-Json array_json(const std::vector<T>& items) {
-  Json array = Json::array();
-  for (const T& item : items) array.push_back(json_of(item));
-  return array;
-}
-
-ListedResult result_from(const Json& json) {
-  return {json.at("path").get<std::string>(), json.at("method").get<std::string>(),
-          json.at("source").get<std::string>()};
-}
-
-SceneProbe probe_from(const Json& json) {
-  SceneProbe probe{.grid = {int_of(json.at("grid").at(0)), int_of(json.at("grid").at(1))},
-                   .height = int_of(json.at("size").at(0)),
-                   .width = int_of(json.at("size").at(1)),
-                   .channels = int_of(json.at("size").at(2)),
-                   .truth = json.at("truth").get<std::string>(),
-                   .labels = json.at("labels").get<std::string>(),
-                   .list = int_of(json.at("list")),
-                   .frames = int_of(json.at("frames"))};
-  const int type = int_of(json.at("type"));
-  constexpr int last = static_cast<int>(SampleType::Float32);
-  if (type >= 0 && type <= last) probe.sample_type = static_cast<SampleType>(type);
-  return probe;
-}
-
-CollectionEntry entry_from(const Json& json) {
-  return {.path = json.at("path").get<std::string>(),
-          .name = json.at("name").get<std::string>(),
-          .reader = json.at("reader").get<std::string>(),
-          .probe = probe_from(json.at("probe")),
-          .bytes = json.at("bytes").get<std::uintmax_t>(),
-          .modified = json.at("modified").get<std::int64_t>(),
-          .fingerprint = json.at("fingerprint").get<std::uint64_t>(),
-          .problem = json.at("problem").get<std::string>()};
-}
-
-Json json_of(const FolderRecord& record) {
-  return {{"entries", array_json(record.entries)},
-          {"results", array_json(record.results)},
-          {"descends", record.descends},
-          {"doubtful", record.is_doubtful}};
-}
-
-FolderRecord record_from(const Json& json) {
-  FolderRecord record{.entries = {},
-                      .results = {},
-                      .descends = json.at("descends").get<bool>(),
-                      .is_doubtful = json.at("doubtful").get<bool>()};
-  for (const Json& each : json.at("entries")) record.entries.push_back(entry_from(each));
-  for (const Json& each : json.at("results")) record.results.push_back(result_from(each));
-  return record;
-}
-
-/// Names of files need not be UTF-8, but JSON must.
-bool is_utf8(const Json& json) {
-  try {
-    return !json.dump().empty();
-  } catch (const Json::type_error&) {
-    return false;
-  }
-}
-
-}  // namespace
-
-CollectionCache::CollectionCache(fs::path file) : file_(std::move(file)) {
-  std::error_code error;
-  if (file_.empty() || !fs::exists(file_, error)) return;
-  try {
-    read();
-  } catch (const Json::exception&) {
-    old_.clear();  // damaged
-  } catch (const Error&) {
-    old_.clear();  // too large or too deep
-  }
-}
-
-void CollectionCache::read() {
-  const Json json = read_json<Json>(file_);
-  if (json.at("program") != key_of_program()) return;
-  for (const auto& [folder, kept] : json.at("folders").items()) {
-    old_[folder] = {kept.at("fingerprint").get<std::uint64_t>(), record_from(kept.at("record"))};
-  }
-}
-
-const FolderRecord* CollectionCache::find(const fs::path& folder, std::uint64_t fingerprint) const {
-  const auto found = old_.find(folder.string());
-  const bool is_same = found != old_.end() && found->second.fingerprint == fingerprint;
-  return is_same ? &found->second.record : nullptr;
-}
-
-void CollectionCache::keep(const fs::path& folder, std::uint64_t fingerprint, FolderRecord record) {
-  if (!find(folder, fingerprint)) has_changed_ = true;
-  new_[folder.string()] = {fingerprint, std::move(record)};
-}
-
-void CollectionCache::save() const {
-  if (file_.empty() || (!has_changed_ && old_.size() == new_.size())) return;
-  Json folders = Json::object();
-  for (const auto& [folder, kept] : new_) {
-    Json each{{"fingerprint", kept.fingerprint}, {"record", json_of(kept.record)}};
-    if (is_utf8(folder) && is_utf8(each)) folders[folder] = std::move(each);
-  }
-  const Json json{{"program", key_of_program()}, {"folders", std::move(folders)}};
-  const std::string text = json_text(json);
-  std::error_code error;
-  fs::create_directories(file_.parent_path(), error);
-  if (error || text.size() > kLargestJson) return;
-  try {
-    write_atomically(file_, text);
-  } catch (const IoError&) {
-    return;  // a cache is a convenience
-  }
 }
 
 namespace {
@@ -363,24 +205,9 @@ std::int64_t nanoseconds(fs::file_time_type time) {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(since_1970).count();
 }
 
-void add(Fnv1a& hash, const fs::path& path, std::uintmax_t bytes, std::int64_t time) {
-  hash.add(path.filename().string());
-  hash.add_word(bytes);
-  hash.add_word(static_cast<std::uint64_t>(time));
-}
-
-/// Sorts, and takes the fingerprint.
-void finish(FolderListing& listing) {
+void sort(FolderListing& listing) {
   std::ranges::sort(listing.files, {}, &ListedFile::path);
   std::ranges::sort(listing.folders);
-  Fnv1a hash;
-  for (const ListedFile& file : listing.files) add(hash, file.path, file.bytes, file.modified_ns);
-  for (const fs::path& folder : listing.folders) {
-    std::error_code error;
-    const auto time = fs::last_write_time(folder, error);
-    add(hash, folder, 0, error ? 0 : nanoseconds(time));
-  }
-  listing.fingerprint = hash.value();
 }
 
 void add_file(FolderListing& listing, const fs::directory_entry& entry) {
@@ -404,14 +231,13 @@ FolderListing list_folder(const fs::path& folder) {
       add_file(listing, entry);
     }
   }
-  finish(listing);
+  sort(listing);
   return listing;
 }
 
 FolderListing list_file(const fs::path& file) {
   FolderListing listing{.folder = file.parent_path(), .files = {}, .folders = {}};
   add_file(listing, fs::directory_entry(file));
-  finish(listing);
   return listing;
 }
 
@@ -459,11 +285,7 @@ std::optional<ListedResult> result_in(const fs::path& path) {
 }
 
 CollectionEntry entry_at(const fs::path& path, const FolderListing& files) {
-  CollectionEntry entry{.path = path,
-                        .name = scene_name(path),
-                        .reader = {},
-                        .probe = {},
-                        .fingerprint = files.fingerprint};
+  CollectionEntry entry{.path = path, .name = scene_name(path), .reader = {}, .probe = {}};
   for (const ListedFile& file : files.files) {
     entry.bytes += file.bytes;
     entry.modified = std::max(entry.modified, file.modified_ns / 1'000'000'000);
@@ -543,14 +365,9 @@ void add_array_entries(const FolderListing& listing, FolderRecord& record) {
 CollectionEntry folder_entry(const FolderListing& listing, const FoundReader& found) {
   CollectionEntry entry = entry_at(listing.folder, listing);
   if (const fs::path views_inside = views_folder(listing.folder); views_inside != listing.folder) {
-    const FolderListing inside = list_folder(views_inside);
-    const CollectionEntry views = entry_at(views_inside, inside);
+    const CollectionEntry views = entry_at(views_inside, list_folder(views_inside));
     entry.bytes += views.bytes;
     entry.modified = std::max(entry.modified, views.modified);
-    Fnv1a both;
-    both.add_word(listing.fingerprint);
-    both.add_word(inside.fingerprint);
-    entry.fingerprint = both.value();
   }
   probe(found, entry);
   return entry;
@@ -578,6 +395,14 @@ FolderListing without_own_pictures(FolderListing listing) {
 std::size_t image_count(const FolderListing& listing) {
   return static_cast<std::size_t>(std::ranges::count_if(
       listing.files, [](const ListedFile& file) { return is_image_name(file.path); }));
+}
+
+/// Of labels in the form of VOC, as `write_label_folder` and CVAT write them: its pictures are
+/// drawn labels, and copies of views.
+bool is_label_export(const FolderListing& listing) {
+  return listing.files.size() == 1 && listing.files.front().path.filename() == kLabelMap &&
+         std::ranges::find(listing.folders, listing.folder / "SegmentationClass") !=
+             listing.folders.end();
 }
 
 /// Any folder of pictures may be taken for a grid of views; but not one whose views lie in several
@@ -631,6 +456,10 @@ std::optional<CollectionEntry> scan_file(const fs::path& file) {
 
 FolderRecord scan_folder(const FolderListing& listing) {
   FolderRecord record;
+  if (is_label_export(listing)) {
+    record.descends = false;
+    return record;
+  }
   for (const ListedFile& file : listing.files) {
     if (auto result = result_in(file.path)) record.results.push_back(std::move(*result));
   }

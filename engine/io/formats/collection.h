@@ -29,9 +29,7 @@ struct CollectionEntry {
   std::vector<ListedResult> results{};
   std::uintmax_t bytes = 0;   ///< Of the file, or of the files of its folder.
   std::int64_t modified = 0;  ///< Seconds since 1970, of the newest of these.
-  std::uint64_t fingerprint =
-      0;                  ///< Of names, sizes and times of these: another one, another scene.
-  std::string problem{};  ///< Why it cannot be opened: a sentence; empty = it can.
+  std::string problem{};      ///< Why it cannot be opened: a sentence; empty = it can.
 };
 
 /// Content of one folder, without its subfolders.
@@ -44,12 +42,8 @@ struct FolderRecord {
   bool is_doubtful = false;
 };
 
-struct CollectionOptions {
-  /// File that keeps the content of headers (CollectionCache); empty = none.
-  std::filesystem::path cache_file{};
-  /// Called for every light field as soon as it is found, with the results known by then.
-  std::function<void(const CollectionEntry&)> on_entry{};
-};
+/// Called for every light field as soon as it is found, with the results known by then.
+using OnCollectionEntry = std::function<void(const CollectionEntry&)>;
 
 /// Finds every light field in `root` and below, in any format and at any depth, in the order of
 /// their paths. `root` may be a light field itself, or a file. A scene folder is one light field
@@ -59,37 +53,8 @@ struct CollectionOptions {
 /// cannot be opened are listed with their problem. Reads headers only. Throws IoError if there is
 /// no `root`. Throws Cancelled.
 [[nodiscard]] std::vector<CollectionEntry> find_light_fields(const std::filesystem::path& root,
-                                                             const CollectionOptions& options,
+                                                             const OnCollectionEntry& on_entry,
                                                              const Progress& progress);
-
-/// Content of folders at their last scan, in a file that may be lost or damaged at any time: then
-/// everything is scanned again. Keeps only the folders of the last listing.
-class CollectionCache {
- public:
-  /// Reads the file if this version wrote it with the same readers. An empty path keeps nothing.
-  explicit CollectionCache(std::filesystem::path file);
-
-  /// Content of the folder when it had this fingerprint; null if unknown.
-  [[nodiscard]] const FolderRecord* find(const std::filesystem::path& folder,
-                                         std::uint64_t fingerprint) const;
-  void keep(const std::filesystem::path& folder, std::uint64_t fingerprint, FolderRecord record);
-  /// Writes the records unless they equal those read. Does nothing where writing fails.
-  void save() const;
-
- private:
-  struct Kept {
-    std::uint64_t fingerprint = 0;
-    FolderRecord record;
-  };
-  using Records = std::map<std::string, Kept>;
-
-  void read();
-
-  std::filesystem::path file_;
-  Records old_;
-  Records new_;
-  bool has_changed_ = false;
-};
 
 struct ListedFile {
   std::filesystem::path path;
@@ -102,7 +67,6 @@ struct FolderListing {
   std::filesystem::path folder;
   std::vector<ListedFile> files;  ///< Regular ones.
   std::vector<std::filesystem::path> folders;
-  std::uint64_t fingerprint = 0;  ///< Of names, sizes and times of all this.
 };
 
 /// Lists a folder. Throws filesystem_error if it cannot be read.
@@ -113,8 +77,8 @@ struct FolderListing {
 
 /// Finds the light fields of a folder with the table of readers (reader.h): the folder itself if it
 /// is a scene folder, else each of its files that is a light field. Pictures that this program made
-/// (is_own_picture) are none. Files that cannot be opened
-/// become entries with a problem. Reads headers only.
+/// (is_own_picture) are none, nor are its exports of labels. Files that cannot be opened become
+/// entries with a problem. Reads headers only.
 [[nodiscard]] FolderRecord scan_folder(const FolderListing& listing);
 
 /// Light field that a file is by itself; none if it is a part of one, or none at all.

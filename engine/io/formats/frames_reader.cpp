@@ -258,27 +258,6 @@ Film read_film(const fs::path& path, int most, const Progress& progress) {
 namespace {
 
 constexpr int kChannels = 3;
-constexpr int kFewestListedPages = 4;
-
-/// Whether pages in the middle of the list differ by color, not by motion: motion that is too far
-/// to be followed leaves pictures that are not alike.
-bool are_channels(const LightField::Samples& samples, const PageOrder& order, int views) {
-  constexpr double kAlike = 0.4;
-  const int middle = views / 2;
-  const auto picture = [&](int view, int channel) {
-    return MotionPictures(grey_levels(samples, {0, order.page(view, channel)}));
-  };
-  const MotionPictures center = picture(middle, 1);
-  AxisEvidence of_channels;
-  AxisEvidence of_views;
-  for (const int side : {-1, 1}) {
-    const MotionPictures other = picture(middle, 1 + side);
-    if (correlation(center.scales[1], other.scales[1]) < kAlike) return false;
-    of_channels.add(center, other);
-    if (middle + side < views) of_views.add(center, picture(middle + side, 1));
-  }
-  return are_rather_channels(of_channels, of_views);
-}
 
 template <class T>
 ViewStack<T> joined_channels(const ViewStack<T>& pages, const PageOrder& order) {
@@ -293,30 +272,6 @@ ViewStack<T> joined_channels(const ViewStack<T>& pages, const PageOrder& order) 
     }
   }
   return colored;
-}
-
-/// The order of 3N grey pictures, 1×3N, of which each three are the channels of one, as ImageJ
-/// stores colors of more than 8 bits, or each third of them is a channel: then views move, and
-/// channels do not. Nothing if they do.
-std::optional<PageOrder> find_channel_pages(const LightField::Samples& samples) {
-  return std::visit(
-      [&](const auto& stack) -> std::optional<PageOrder> {
-        const int pages = stack.grid().count();
-        const int views = pages / kChannels;
-        const bool may_be = stack.channels() == 1 && pages % kChannels == 0;
-        if (!may_be || views < kFewestListedPages) return std::nullopt;
-        for (const PageOrder& order : {PageOrder{kChannels, 1}, PageOrder{kChannels, views}}) {
-          if (are_channels(samples, order, views)) return order;
-        }
-        return std::nullopt;
-      },
-      samples);
-}
-
-/// Puts pictures, grey and 1×N, together to colored ones: two channels become red and green, of
-/// more than three the first three are kept.
-void join_channel_pages(LightField::Samples& samples, const PageOrder& order) {
-  std::visit([&](auto& stack) { stack = joined_channels(stack, order); }, samples);
 }
 
 namespace fs = std::filesystem;
@@ -411,23 +366,17 @@ LightField::Samples samples_of(const fs::path& path, const std::vector<AnyImage>
       pictures.front());
 }
 
-/// Pages that are channels of a view, as the file says or as they look.
+/// Pages that are channels of a view, as the file says.
 void join_channels(LightField::Samples& samples, const std::optional<StatedPages>& stated,
                    std::string& reason, std::vector<std::string>& warnings) {
   const bool is_grey = std::visit([](const auto& stack) { return stack.channels() == 1; }, samples);
-  if (is_grey && stated && stated->order.channels > 1) {
-    const int channels = stated->order.channels;
-    join_channel_pages(samples, stated->order);
-    reason += fmt::format(", each {} of them the channels of a view, as {} wrote", channels,
-                          stated->program);
-    if (channels == 2) reason += ", shown as red and green";
-    if (channels > 3) {
-      warnings.push_back(fmt::format(finding_text("views.channels"), channels));
-    }
-  } else if (const auto found = find_channel_pages(samples)) {
-    join_channel_pages(samples, *found);
-    reason += ", each three of them the channels of a view";
-  }
+  if (!is_grey || !stated || stated->order.channels < 2) return;
+  const int channels = stated->order.channels;
+  std::visit([&](auto& stack) { stack = joined_channels(stack, stated->order); }, samples);
+  reason += fmt::format(", each {} of them the channels of a view, as {} wrote", channels,
+                        stated->program);
+  if (channels == 2) reason += ", shown as red and green";
+  if (channels > 3) warnings.push_back(fmt::format(finding_text("views.channels"), channels));
 }
 
 Scene read_light_field(const fs::path& path, const OpenOptions& options, const Progress& progress) {

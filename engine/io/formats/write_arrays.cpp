@@ -7,6 +7,8 @@
 #include "engine/io/base/npy.h"
 #include "engine/io/base/zip.h"
 #include "engine/io/models/array_samples.h"
+#include "engine/io/models/estimated.h"
+#include "engine/io/models/stored_maps.h"
 
 #include <fcntl.h>
 #include <limits>
@@ -34,14 +36,10 @@ class OrderedStack {
 /// `has_channels`.
 template <class T>
 ArrayShape shape_of(const ViewStack<T>& stack, bool has_channels) {
-  const auto length = [](int value) { return static_cast<std::size_t>(value); };
-  ArrayShape shape;
-  if (stack.grid().count() > 1 || has_channels) {
-    shape = {length(stack.grid().v), length(stack.grid().u)};
-  }
-  shape.push_back(length(stack.height()));
-  shape.push_back(length(stack.width()));
-  if (has_channels) shape.push_back(length(stack.channels()));
+  ArrayShape shape = map_shape(stack.grid(), stack.height(), stack.width());
+  if (!has_channels) return shape;
+  if (stack.grid().count() == 1) shape.insert(shape.begin(), {1, 1});
+  shape.push_back(static_cast<std::size_t>(stack.channels()));
   return shape;
 }
 
@@ -89,6 +87,11 @@ void write_npz(const std::filesystem::path& path, const Scene& scene, const Prog
   add_stack(zip, "disparity", disparity_with_nan(scene.truth->field), false);
   add_stack(zip, "labels", scene.truth->labels, false);
   add_stack(zip, "valid", scene.light_field->valid(), false);
+  std::string text;
+  if (const auto& estimated = scene.truth->estimated) text = estimated_json(*estimated);
+  if (!text.empty()) {
+    zip.add(kEstimatedFile, {{reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}});
+  }
   zip.close();
   progress.check();
   file.commit();
@@ -213,6 +216,9 @@ void write_mat(const std::filesystem::path& path, const Scene& scene, const Prog
       },
       light_field.samples());
   write_map(file, "disparity", disparity_with_nan(scene.truth->field));
+  if (scene.truth->estimated && !scene.truth->field.empty()) {
+    write_estimated(file, "disparity", *scene.truth->estimated);
+  }
   progress.check();
   write_map(file, "labels", scene.truth->labels);
   if (light_field.channels() == 1) write_map(file, "valid", light_field.valid());

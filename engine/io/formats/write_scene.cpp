@@ -9,6 +9,7 @@
 #include "engine/io/base/image_file.h"
 #include "engine/io/base/json.h"
 #include "engine/io/formats/benchmark_truth.h"
+#include "engine/io/models/estimated.h"
 #include "engine/io/models/result_file.h"
 #include "engine/io/models/scribble_file.h"
 #include "engine/io/models/stored_maps.h"
@@ -124,24 +125,6 @@ MapGeometry stored_geometry(const DisparityField& field, const LightField& light
   return maps;
 }
 
-/// Writes a disparity field as it is, NaN where there is none.
-void write_true_disparity(Hdf5Output& file, const std::string& name, const DisparityField& field,
-                          const LightField& light_field, const Progress& progress) {
-  if (field.empty()) return;
-  std::vector<float> values(field.disparity.view_size());
-  const auto marked = [&](ViewIndex view) -> const float* {
-    std::fill(values.begin(), values.end(), std::numeric_limits<float>::quiet_NaN());
-    if (!field.contains(view)) return values.data();
-    const DisparityView map = field.view(view);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      if (map.valid.empty() || map.valid.data[i] != 0) values[i] = map.disparity.data[i];
-    }
-    return values.data();
-  };
-  write_maps<float>(file, name, stored_geometry(field, light_field), kDisparityUnit, progress,
-                    marked);
-}
-
 /// Writes a disparity field as depth, 0 where there is none, and its mask if something is missing.
 void write_depth(Hdf5Output& file, const std::string& name, const DisparityField& field,
                  const Scene& scene, const CameraGrid& camera, const Progress& progress) {
@@ -180,14 +163,6 @@ void write_depth(Hdf5Output& file, const std::string& name, const DisparityField
   write_maps<std::uint8_t>(file, name + "_MASK", maps, "", progress.part(0.8, 1), [&](ViewIndex) {
     return std::exchange(next, next + disparity.view_size());
   });
-}
-
-/// Says that maps are a result.
-void write_estimated(Hdf5Output& file, const std::string& name, const Provenance& estimated) {
-  file.set_text(name, kEstimatedBy, estimated.method);
-  file.set_text(name, kEstimateParameters, parameters_to_json(estimated.parameters));
-  file.set_text(name, kEstimateSource, estimated.source);
-  if (!estimated.version.empty()) file.set_text(name, kEstimateVersion, estimated.version);
 }
 
 /// Region masks of the center view, and which pixels of the views are valid.
@@ -339,9 +314,9 @@ void write_truth(Hdf5Output& file, const Scene& scene, const CameraGrid& camera,
     const std::string depth = std::string(kTrueDepth) + layer;
     const std::string disparity = std::string(kTrueDisparity) + layer;
     write_depth(file, depth, *field, scene, camera, progress.part(done, done + 0.25));
-    if (has_disparity) {
-      write_true_disparity(file, disparity, *field, *scene.light_field,
-                           progress.part(done + 0.25, done + 0.33));
+    if (has_disparity && !field->empty()) {
+      write_disparity(file, disparity, *field, stored_geometry(*field, *scene.light_field),
+                      progress.part(done + 0.25, done + 0.33));
     }
     for (const std::string& name : {depth, disparity}) {
       if (truth.estimated && file.has(name)) write_estimated(file, name, *truth.estimated);
@@ -429,17 +404,6 @@ void write_benchmark_view(const fs::path& path, const LightField& field, ViewInd
   }
 }
 
-void write_disparity_pfm(const fs::path& path, const DisparityView& map) {
-  Image<float> marked(map.disparity.height, map.disparity.width);
-  for (int y = 0; y < marked.height(); ++y) {
-    for (int x = 0; x < marked.width(); ++x) {
-      marked.at(y, x) =
-          map.is_valid(y, x) ? map.disparity.at(y, x) : std::numeric_limits<float>::quiet_NaN();
-    }
-  }
-  write_pfm(path, marked.view());
-}
-
 /// Parameters whose camera has the same B·f and shift; depth is in mm, as the benchmark has it.
 std::string config_text(const Scene& scene) {
   const LightField& field = *scene.light_field;
@@ -481,14 +445,14 @@ void write_truth(const fs::path& folder, const Scene& scene) {
   const LightField& field = *scene.light_field;
   const ViewIndex center = field.center();
   if (truth.field.contains(center)) {
-    write_disparity_pfm(folder / kCenterDisparity, truth.field.view(center));
+    write_pfm(folder / kCenterDisparity, marked_map(truth.field.view(center)).view());
   }
   const bool is_of_center =
       truth.field.disparity.grid().count() == 1 && truth.field.contains(center);
   for (int i = 0; !is_of_center && i < field.grid().count(); ++i) {
     const ViewIndex view = field.grid().view_at(i);
     if (!truth.field.contains(view)) continue;
-    write_disparity_pfm(folder / disparity_file_name(i), truth.field.view(view));
+    write_pfm(folder / disparity_file_name(i), marked_map(truth.field.view(view)).view());
   }
   if (truth.labels.contains(center) && !truth.labels.empty()) {
     const auto labels = truth.labels.view(center);

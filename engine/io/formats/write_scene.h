@@ -51,14 +51,8 @@ inline constexpr const char* kSign = "sign";
 /// Attribute of the root: x and y of the camera of each view, row by row; and their unit.
 inline constexpr const char* kPositions = "camera_positions";
 inline constexpr const char* kPositionUnit = "camera_position_unit";
-/// Attributes of GT_DEPTH or GT_LABELS that are no truth but a result: the method, its parameters
-/// (a JSON object), the light field it was estimated from, and the version of Episcope.
-inline constexpr const char* kEstimatedBy = "estimated_by";
-inline constexpr const char* kEstimateParameters = "parameters";
-inline constexpr const char* kEstimateSource = "source";
-/// The source in parameters of the benchmark form.
+/// The source of a result in parameters of the benchmark form.
 inline constexpr const char* kEstimatedFrom = "estimated_from";
-inline constexpr const char* kEstimateVersion = "version";
 /// Datasets of depth, `[v][h][y][x]` or, of the center view alone, `[y][x]`; names of layers begin
 /// so. Those of disparity have the same shape, and the same names but for the beginning.
 inline constexpr const char* kTrueDepth = "GT_DEPTH";

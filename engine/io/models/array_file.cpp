@@ -4,6 +4,7 @@
 #include "engine/core/error.h"
 #include "engine/core/finding.h"
 #include "engine/core/text.h"
+#include "engine/io/models/estimated.h"
 #include "engine/io/models/names/view_files.h"
 #include "engine/io/models/sidecar_maps/map_name.h"
 
@@ -469,6 +470,10 @@ bool Hdf5Arrays::add_cells(const Hdf5Dataset& dataset, const std::vector<Hdf5Dat
   auto whole = joined_cells(dataset.name, cells, dataset.shape);
   if (whole) add(std::move(*whole));
   return whole.has_value();
+}
+
+std::optional<Provenance> Hdf5Arrays::estimated(const std::string& map) const {
+  return estimated_in(*file_, map);
 }
 
 std::unique_ptr<ArrayInput> Hdf5Arrays::open_stored(const ArrayEntry& entry) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "engine/core/estimate.h"
 #include "engine/io/base/array_input.h"
 #include "engine/io/base/array_layout.h"
 #include "engine/io/base/hdf5_file.h"
@@ -59,6 +60,10 @@ class ArrayFile {
   [[nodiscard]] const std::vector<ArrayEntry>& entries() const { return entries_; }
   /// Throws IoError for an array that is damaged, or of another type than numbers.
   [[nodiscard]] std::unique_ptr<ArrayInput> open(const ArrayEntry& entry) const;
+  /// How a map of this name was estimated, if the file says that it is no truth.
+  [[nodiscard]] virtual std::optional<Provenance> estimated(const std::string& /*map*/) const {
+    return std::nullopt;
+  }
 
  protected:
   ArrayFile(std::filesystem::path path, std::string form)
@@ -107,6 +112,7 @@ class Hdf5Arrays : public ArrayFile {
   explicit Hdf5Arrays(std::shared_ptr<const Hdf5Input> file);
 
   [[nodiscard]] bool is_matlab() const { return form() != kPlainForm; }
+  [[nodiscard]] std::optional<Provenance> estimated(const std::string& map) const override;
 
  private:
   [[nodiscard]] std::unique_ptr<ArrayInput> open_stored(const ArrayEntry& entry) const override;

@@ -4,8 +4,10 @@
 #include "engine/core/error.h"
 #include "engine/core/text.h"
 #include "engine/io/base/files.h"
+#include "engine/io/base/json.h"
 #include "engine/io/base/npy.h"
 #include "engine/io/models/choose_layout.h"
+#include "engine/io/models/estimated.h"
 #include "engine/io/models/sidecar_maps/map_name.h"
 #include "engine/io/models/sidecar_maps/scene_files.h"
 
@@ -106,11 +108,21 @@ NumpyFile::NumpyFile(const fs::path& path)
   }
 }
 
+std::optional<Provenance> NumpyFile::estimated(const std::string& map) const {
+  return map == "disparity" ? estimated_from_json(estimated_) : std::nullopt;
+}
+
 void NumpyFile::add_archive(const fs::path& path) {
   if (!has_zip_signature(path)) {
     throw IoError(path, "this is not an .npz file, despite its name; choose another file");
   }
   for (const ZipEntry& entry : list_zip(path)) {
+    if (entry.name == kEstimatedFile && !entry.is_deflated && entry.stored < kLargestJson) {
+      estimated_.resize(entry.stored);
+      std::ifstream in(path, std::ios::binary);
+      in.seekg(static_cast<std::streamoff>(entry.begin));
+      in.read(estimated_.data(), static_cast<std::streamsize>(estimated_.size()));
+    }
     if (!entry.name.ends_with(".npy")) continue;
     add_source({entry.name.substr(0, entry.name.size() - 4), path, entry}, false);
   }

@@ -16,6 +16,7 @@ class NumpyFile : public ArrayFile {
  public:
   /// Opens an archive, a folder, or one `.npy` with the maps beside it. Throws IoError.
   explicit NumpyFile(const std::filesystem::path& path);
+  [[nodiscard]] std::optional<Provenance> estimated(const std::string& map) const override;
 
  private:
   [[nodiscard]] std::unique_ptr<ArrayInput> open_stored(const ArrayEntry& entry) const override;
@@ -30,6 +31,7 @@ class NumpyFile : public ArrayFile {
   void add_archive(const std::filesystem::path& path);
 
   std::vector<Source> sources_;
+  std::string estimated_;  ///< The text of `kEstimatedFile`.
 };
 
 /// Whether a folder holds pictures as `.npy` files, numbered, and no images.

@@ -226,24 +226,12 @@ auto& field_in(Maps& maps, DraftMap map) {
   return map == DraftMap::Second ? maps.second : maps.field;
 }
 
-// Disparity as files have it.
-std::span<const std::uint8_t> marked_disparity(const DisparityField& field, ViewIndex view,
-                                               std::vector<float>& marked) {
-  const ImageView<const float> disparity = field.disparity.view(view);
-  if (field.valid.empty()) return bytes_of(disparity);
-  const std::uint8_t* const valid = field.valid.view(view).data;
-  marked.assign(disparity.data, disparity.data + disparity.size());
-  for (std::size_t i = 0; i < marked.size(); ++i) {
-    if (valid[i] == 0) marked[i] = std::numeric_limits<float>::quiet_NaN();
-  }
-  return {reinterpret_cast<const std::uint8_t*>(marked.data()), marked.size() * sizeof(float)};
-}
-
 std::span<const std::uint8_t> bytes_in(const BlockMaps& maps, DraftMap map, ViewIndex view,
-                                       std::vector<float>& marked) {
+                                       Image<float>& marked) {
   if (map == DraftMap::Valid) return bytes_of(maps.field.valid.view(view));
   if (map == DraftMap::Confidence) return bytes_of(maps.confidence.view(view));
-  return marked_disparity(field_in(maps, map), view, marked);
+  marked = marked_map(field_in(maps, map).view(view));
+  return bytes_of(ImageView<const float>(marked.view()));
 }
 
 // Where the samples of a map that is no mask go.
@@ -269,9 +257,9 @@ void DraftFile::create(const std::filesystem::path& path, const DraftShape& shap
   for (const Dataset& dataset : datasets_of(shape)) {
     const std::string name = in_group(dataset.name);
     if (sample_bytes(dataset.map) == 1) {
-      output.reserve_dataset<std::uint8_t>(name, extent, axes, dataset.unit);
+      output.add_dataset<std::uint8_t>(name, extent, axes, dataset.unit, true);
     } else {
-      output.reserve_dataset<float>(name, extent, axes, dataset.unit);
+      output.add_dataset<float>(name, extent, axes, dataset.unit, true);
     }
   }
   describe_maps(output, maps);
@@ -375,7 +363,7 @@ BlockMaps DraftFile::read(const MapBlock& block) const {
 
 void DraftFile::write_strips(const FileDescriptor& to, bool is_aside, const MapBlock& block,
                              const BlockMaps& maps) const {
-  std::vector<float> marked;
+  Image<float> marked;
   std::uintmax_t end = 0;
   for (int i = 0; i < block.views.grid.count(); ++i) {
     const ViewIndex view = block.views.grid.view_at(i, block.views.first);

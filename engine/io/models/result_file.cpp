@@ -57,7 +57,8 @@ class ResultWriter {
     const Progress last = progress.part(0.9, 1);
     if (!estimate.second.empty()) {
       file_.set_storage(floats_);
-      write_disparity(file_, in_group("disparity_second"), estimate.second, last);
+      write_disparity(file_, in_group("disparity_second"), estimate.second,
+                      geometry_of(estimate.second.disparity), last);
     }
     write_field(layered.foreground, "disparity_foreground", "valid_foreground", last);
     write_field(layered.background, "disparity_background", "valid_background", last);
@@ -71,7 +72,8 @@ class ResultWriter {
                    const Progress& progress) {
     if (field.empty()) return;
     file_.set_storage(floats_);
-    write_disparity(file_, in_group(name), field, progress.part(0, 0.85));
+    write_disparity(file_, in_group(name), field, geometry_of(field.disparity),
+                    progress.part(0, 0.85));
     if (field.valid.empty()) return;
     file_.set_storage(Hdf5Storage::Deflated);
     write_stack(file_, in_group(valid), field.valid, kNoUnit, progress.part(0.85, 1));

@@ -196,8 +196,6 @@ void write_label_maps(Hdf5Output& file, const std::string& name,
 
 namespace {
 
-constexpr const char* kName = "SCRIBBLES";
-
 struct Census {
   std::size_t zeros = 0;
   std::size_t nones = 0;  ///< −1 or 255.
@@ -241,7 +239,7 @@ ViewIndex stated_view(const Hdf5Input& file, const FieldShape& shape, ViewIndex 
 
 std::vector<ViewScribbles> read_views(const Hdf5Input& file, const FieldShape& shape,
                                       const Progress& progress) {
-  const ViewStack<std::int32_t> stack = read_maps<std::int32_t>(file, kName, shape, progress);
+  const ViewStack<std::int32_t> stack = read_maps<std::int32_t>(file, kScribbles, shape, progress);
   std::vector<ViewScribbles> views;
   for (int i = 0; i < stack.grid().count(); ++i) {
     const ViewIndex view = stack.view_at(i);
@@ -278,17 +276,17 @@ StoredScribbles read_scribble_dataset(const Hdf5Input& file, const FieldShape& s
   StoredScribbles stored;
   std::vector<ViewScribbles>& views = stored.scribbles.views;
   views = read_views(file, shape, progress);
-  if (const auto unpainted = file.number(kName, "unpainted")) {
+  if (const auto unpainted = file.number(kScribbles, "unpainted")) {
     const std::int32_t none = whole_int(*unpainted).value_or(0);
     for (ViewScribbles& one : views) std::ranges::replace(one.labels, none, 0);
-    stored.raises_labels = file.number(kName, "raises_labels").value_or(0) != 0;
+    stored.raises_labels = file.number(kScribbles, "raises_labels").value_or(0) != 0;
   } else {
     stored.raises_labels = decode(views, has_label_zero);
   }
   std::erase_if(views, [](const ViewScribbles& one) {
     return std::ranges::all_of(one.labels, [](std::int32_t label) { return label == 0; });
   });
-  stored.scribbles.labels = read_label_list(file, kName);
+  stored.scribbles.labels = read_label_list(file, kScribbles);
   return stored;
 }
 
@@ -308,15 +306,15 @@ void add_scribbles(Hdf5Output& file, const Scribbles& scribbles, const ScribbleP
   if (scribbles.views.size() == 1) {
     maps.first = flipped(scribbles.views[0].view, shape.grid, place.flip);
   }
-  write_label_maps(file, kName, maps, progress, [&](ViewIndex stored) {
+  write_label_maps(file, kScribbles, maps, progress, [&](ViewIndex stored) {
     const auto painted = std::ranges::find(scribbles.views, flipped(stored, shape.grid, place.flip),
                                            &ViewScribbles::view);
     return painted == scribbles.views.end() ? bare.data() : painted->labels.data();
   });
   if (!has_many) file.set_integers("/", "scribble_view", {maps.first.v, maps.first.u});
-  file.set_integers(kName, "unpainted", {0});
-  if (place.raises_labels) file.set_integers(kName, "raises_labels", {1});
-  add_label_list(file, kName, scribbles.labels);
+  file.set_integers(kScribbles, "unpainted", {0});
+  if (place.raises_labels) file.set_integers(kScribbles, "raises_labels", {1});
+  add_label_list(file, kScribbles, scribbles.labels);
 }
 
 ViewStack<std::int32_t> read_true_labels(const std::filesystem::path& path, const Scene& scene,
@@ -324,8 +322,7 @@ ViewStack<std::int32_t> read_true_labels(const std::filesystem::path& path, cons
   const Hdf5Input file(path);
   const LightField& field = *scene.light_field;
   const ViewCrop& crop = scene.convention.crop;
-  const FieldShape shape{crop.leaves_out() ? crop.stored : field.grid(), field.height(),
-                         field.width()};
+  const FieldShape shape = stored_shape_of(scene);
   auto labels = read_maps<std::int32_t>(file, kTrueLabels, shape, progress);
   if (scene.convention.raised_labels) {
     std::for_each(labels.data(), labels.data() + labels.size(), raise_label);
@@ -349,19 +346,15 @@ fs::path labels_beside(const fs::path& file) {
   if (files.size() == 1 || !has_hdf5_signature(files.front())) return files.back();
   try {
     const Hdf5Input labels(files.front());
-    const bool has_labels = labels.has(kTrueLabels) || labels.has("SCRIBBLES");
+    const bool has_labels = labels.has(kTrueLabels) || labels.has(kScribbles);
     return has_labels ? files.front() : files.back();
   } catch (const IoError&) {
     return files.back();  // damaged
   }
 }
-namespace {
-
-constexpr int kColorChannels = 3;
-
-}  // namespace
 
 std::vector<LabelInfo> read_label_list(const Hdf5Input& file, const std::string& dataset) {
+  constexpr std::size_t kColorChannels = 3;
   const std::vector<double> ids = file.numbers(dataset, "label_ids");
   const std::vector<double> colors = file.numbers(dataset, "label_colors");
   std::istringstream names(file.text(dataset, "label_names").value_or(""));
@@ -471,113 +464,64 @@ void write_segmentation(const std::filesystem::path& path, const StoredSegmentat
   target.commit();
 }
 
-struct SegmentationFile::State {
-  explicit State(const std::filesystem::path& path) : file(path) {}
-
-  Hdf5Input file;
-  Hdf5Shape shape;
-  std::vector<LabelInfo> infos;
-  GridShape grid{1, 1};
-  ViewIndex first;
-
-  [[nodiscard]] bool has_views() const { return shape.size() == 4; }
-  [[nodiscard]] int height() const { return static_cast<int>(shape[shape.size() - 2]); }
-  [[nodiscard]] int width() const { return static_cast<int>(shape.back()); }
-  [[nodiscard]] ViewIndex place(ViewIndex view) const {
-    return {view.v - first.v, view.u - first.u};
-  }
-
-  void require_sides() const {
-    const bool is_sound = std::ranges::all_of(
-        shape, [](std::size_t side) { return side > 0 && side <= kLongestSegmentSide; });
-    if (is_sound) return;
-    throw IoError(file.path(), "the dataset LABELS has the shape " + shape_text(shape) +
-                                   ", but sides of 1 to " + std::to_string(kLongestSegmentSide) +
-                                   " are expected; write it again");
-  }
-  void read_first() {
-    const std::vector<double> stated = file.numbers(kLabels, "first_view");
-    if (stated.size() != 2) return;
-    first = {whole_int(stated[0]).value_or(-1), whole_int(stated[1]).value_or(-1)};
-    constexpr int last = kLongestSegmentSide;
-    if (first.v >= 0 && first.v <= last && first.u >= 0 && first.u <= last) return;
-    throw IoError(file.path(), "the attribute first_view of LABELS names no view; write it again");
-  }
-};
-
-SegmentationFile::SegmentationFile(const std::filesystem::path& path)
-    : state_(std::make_unique<State>(path)) {
-  State& state = *state_;
-  state.shape = state.file.dataset(kLabels).shape;
-  if (state.shape.size() != 2 && state.shape.size() != 4) {
-    throw IoError(path, "the dataset LABELS has the shape " + shape_text(state.shape) +
-                            ", but 2 or 4 axes are expected; write it again");
-  }
-  state.require_sides();
-  if (state.has_views()) {
-    state.grid = {static_cast<int>(state.shape[0]), static_cast<int>(state.shape[1])};
-  }
-  state.read_first();
-  state.infos = read_label_list(state.file, kLabels);
+SegmentationFile::SegmentationFile(const std::filesystem::path& path) : file_(path) {
+  shape_ = file_.dataset(kLabels).shape;
+  require_sound_shape();
+  if (shape_.size() == 4) grid_ = {static_cast<int>(shape_[0]), static_cast<int>(shape_[1])};
+  read_first();
+  infos_ = read_label_list(file_, kLabels);
 }
 
-SegmentationFile::~SegmentationFile() = default;
-
-GridShape SegmentationFile::grid() const {
-  return state_->grid;
+void SegmentationFile::require_sound_shape() const {
+  const auto refused = [&](const std::string& why) {
+    return IoError(file_.path(), "the dataset LABELS has the shape " + shape_text(shape_) +
+                                     ", but " + why + " are expected; write it again");
+  };
+  if (shape_.size() != 2 && shape_.size() != 4) throw refused("2 or 4 axes");
+  const bool is_sound = std::ranges::all_of(
+      shape_, [](std::size_t side) { return side > 0 && side <= kLongestSegmentSide; });
+  if (!is_sound) throw refused("sides of 1 to " + std::to_string(kLongestSegmentSide));
 }
 
-ViewIndex SegmentationFile::first() const {
-  return state_->first;
-}
-
-bool SegmentationFile::contains(ViewIndex view) const {
-  return state_->grid.contains(state_->place(view));
-}
-
-const std::vector<LabelInfo>& SegmentationFile::infos() const {
-  return state_->infos;
+void SegmentationFile::read_first() {
+  const std::vector<double> stated = file_.numbers(kLabels, "first_view");
+  if (stated.size() != 2) return;
+  first_ = {whole_int(stated[0]).value_or(-1), whole_int(stated[1]).value_or(-1)};
+  constexpr int last = kLongestSegmentSide;
+  if (first_.v >= 0 && first_.v <= last && first_.u >= 0 && first_.u <= last) return;
+  throw IoError(file_.path(), "the attribute first_view of LABELS names no view; write it again");
 }
 
 bool SegmentationFile::has_probabilities() const {
-  const State& state = *state_;
-  if (!state.file.has(kProbabilityDataset)) return false;
-  Hdf5Shape expected = state.shape;
-  expected.push_back(state.infos.size());
-  return state.file.dataset(kProbabilityDataset).shape == expected;
+  if (!file_.has(kProbabilityDataset)) return false;
+  Hdf5Shape expected = shape_;
+  expected.push_back(infos_.size());
+  return file_.dataset(kProbabilityDataset).shape == expected;
 }
 
 Image<std::int32_t> SegmentationFile::labels(ViewIndex view) const {
-  const State& state = *state_;
-  Image<std::int32_t> labels(state.height(), state.width());
-  state.file.read(kLabels, block_of(state.shape, state.place(view), state.has_views()),
-                  labels.data());
+  Image<std::int32_t> labels(height(), width());
+  file_.read(kLabels, block_of(shape_, place(view), shape_.size() == 4), labels.data());
   return labels;
 }
 
 Image<float> SegmentationFile::probabilities(ViewIndex view) const {
-  const State& state = *state_;
-  Hdf5Shape shape = state.shape;
-  shape.push_back(state.infos.size());
-  Image<float> samples(state.height(), state.width(), static_cast<int>(state.infos.size()));
-  state.file.read(kProbabilityDataset, block_of(shape, state.place(view), state.has_views()),
-                  samples.data());
+  Hdf5Shape shape = shape_;
+  shape.push_back(infos_.size());
+  Image<float> samples(height(), width(), static_cast<int>(infos_.size()));
+  file_.read(kProbabilityDataset, block_of(shape, place(view), shape_.size() == 4), samples.data());
   return samples;
 }
 
-std::string SegmentationFile::source() const {
-  return state_->file.text("/", "source").value_or("");
-}
-
 Reading SegmentationFile::reading() const {
-  return reading_in(state_->file, "/");
+  return reading_in(file_, "/");
 }
 
 bool is_segmentation_file(const std::filesystem::path& path) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored) || !has_hdf5_signature(path)) return false;
   const Hdf5Input file(path);
-  return file.has(kLabels) && !file.has("LF") && !file.has("SCRIBBLES") && !file.has(kTrueLabels);
+  return file.has(kLabels) && !file.has("LF") && !file.has(kScribbles) && !file.has(kTrueLabels);
 }
 
 void fill_samples(VolumeView<const std::uint8_t> probabilities, Image<float>& samples) {

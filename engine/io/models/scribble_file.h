@@ -7,6 +7,7 @@
 #include "engine/core/progress.h"
 #include "engine/core/scene.h"
 #include "engine/core/view_stack.h"
+#include "engine/io/base/hdf5_file.h"
 #include "engine/io/base/hdf5_output.h"
 #include "engine/io/models/order/view_axes.h"
 #include "engine/io/models/stored_maps.h"
@@ -15,7 +16,6 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -148,12 +148,11 @@ class SegmentationFile {
  public:
   /// Throws IoError.
   explicit SegmentationFile(const std::filesystem::path& path);
-  ~SegmentationFile();
 
-  [[nodiscard]] GridShape grid() const;
-  [[nodiscard]] ViewIndex first() const;
-  [[nodiscard]] bool contains(ViewIndex view) const;
-  [[nodiscard]] const std::vector<LabelInfo>& infos() const;
+  [[nodiscard]] GridShape grid() const { return grid_; }
+  [[nodiscard]] ViewIndex first() const { return first_; }
+  [[nodiscard]] bool contains(ViewIndex view) const { return grid_.contains(place(view)); }
+  [[nodiscard]] const std::vector<LabelInfo>& infos() const { return infos_; }
   [[nodiscard]] bool has_probabilities() const;
   /// Labels of a view, `[y][x]`. Precondition: `contains(view)`. Throws IoError.
   [[nodiscard]] Image<std::int32_t> labels(ViewIndex view) const;
@@ -161,13 +160,24 @@ class SegmentationFile {
   /// `has_probabilities` and `contains(view)`. Throws IoError.
   [[nodiscard]] Image<float> probabilities(ViewIndex view) const;
   /// Light field that the segmentation belongs to, as stored; may be empty.
-  [[nodiscard]] std::string source() const;
+  [[nodiscard]] std::string source() const { return file_.text("/", "source").value_or(""); }
   /// Reading of that light field; unknown for files of former versions.
   [[nodiscard]] Reading reading() const;
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  void require_sound_shape() const;
+  void read_first();
+  [[nodiscard]] int height() const { return static_cast<int>(shape_[shape_.size() - 2]); }
+  [[nodiscard]] int width() const { return static_cast<int>(shape_.back()); }
+  [[nodiscard]] ViewIndex place(ViewIndex view) const {
+    return {view.v - first_.v, view.u - first_.u};
+  }
+
+  Hdf5Input file_;
+  Hdf5Shape shape_;
+  std::vector<LabelInfo> infos_;
+  GridShape grid_{1, 1};
+  ViewIndex first_;
 };
 
 /// Attributes of the root that tell labels of other strokes apart: the digits, and what they are

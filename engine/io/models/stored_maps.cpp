@@ -79,28 +79,11 @@ MapForm form_of(const Hdf5Input& file, const Hdf5Dataset& dataset, const FieldSh
                                  " is expected to fit the light field; store it in this form");
 }
 
-/// Reads `[x][y][h][v]`, or of one view `[x][y]`, all of it, since every view is spread over it.
-template <class T>
-void read_column_major(const Hdf5Input& file, const Hdf5Dataset& dataset, GridShape grid,
-                       ViewStack<T>& stack) {
-  const std::size_t count = static_cast<std::size_t>(grid.count()) * stack.view_size();
-  std::vector<T> stored(count);
-  file.read(dataset.name, {Hdf5Shape(dataset.shape.size(), 0), dataset.shape}, stored.data());
-  const auto rows = static_cast<std::size_t>(stack.height());
-  for (int i = 0; i < stack.grid().count(); ++i) {
-    const ViewIndex view = stack.view_at(i);
-    const ViewIndex at = grid.count() == 1 ? ViewIndex{} : view;
-    const auto out = stack.view(view);
-    for (int y = 0; y < out.height; ++y) {
-      for (int x = 0; x < out.width; ++x) {
-        const std::size_t pixel = static_cast<std::size_t>(x) * rows + static_cast<std::size_t>(y);
-        const std::size_t column =
-            pixel * static_cast<std::size_t>(grid.u) + static_cast<std::size_t>(at.u);
-        out.at(y, x) =
-            stored[column * static_cast<std::size_t>(grid.v) + static_cast<std::size_t>(at.v)];
-      }
-    }
-  }
+/// `[x][y][h][v]`, or of one view `[x][y]`.
+ArrayLayout column_major_layout(const Hdf5Dataset& dataset) {
+  std::string axes = dataset.shape.size() < 4 ? "xy" : "xyuv";
+  axes.resize(dataset.shape.size(), kSingle);
+  return {dataset.shape, axes};
 }
 
 }  // namespace
@@ -112,26 +95,26 @@ ViewStack<T> read_maps(const Hdf5Input& file, const std::string& name, const Fie
   const auto height = static_cast<std::size_t>(shape.height);
   const auto width = static_cast<std::size_t>(shape.width);
   const MapForm form = form_of(file, dataset, shape);
+  const ViewIndex center = shape.grid.center();
+  progress.check();
+  if (form.is_column_major) {
+    ViewStack<T> all = read_laid_out<T>(file, name, column_major_layout(dataset),
+                                        form.is_one_view ? center : ViewIndex{});
+    if (form.is_one_view || views == MapViews::All) return all;
+    ViewStack<T> one({1, 1}, shape.height, shape.width, 1, center);
+    std::copy_n(all.view(center).data, one.size(), one.data());
+    return one;
+  }
   if (form.is_one_view) {
-    progress.check();
-    ViewStack<T> stack({1, 1}, shape.height, shape.width, 1, shape.grid.center());
-    if (form.is_column_major) {
-      read_column_major(file, dataset, {1, 1}, stack);
-      return stack;
-    }
+    ViewStack<T> stack({1, 1}, shape.height, shape.width, 1, center);
     const Hdf5Shape origin(dataset.shape.size(), 0);
     file.read(name, {origin, dataset.shape}, stack.data());
     return stack;
   }
   const bool is_center = views == MapViews::Center;
-  const ViewIndex first = is_center ? shape.grid.center() : ViewIndex{};
+  const ViewIndex first = is_center ? center : ViewIndex{};
   const GridShape grid = is_center ? GridShape{1, 1} : shape.grid;
   ViewStack<T> stack(grid, shape.height, shape.width, 1, first);
-  if (form.is_column_major) {
-    progress.check();
-    read_column_major(file, dataset, shape.grid, stack);
-    return stack;
-  }
   const bool is_read = !is_center && (read_stored_views(file, name, stack, progress) ||
                                       read_rows_of_views(file, name, stack, progress));
   if (is_read) return stack;
@@ -258,6 +241,8 @@ ViewStack<T> read_laid_out(const Hdf5Input& file, const std::string& name,
 
 template ViewStack<std::uint8_t> read_laid_out(const Hdf5Input&, const std::string&,
                                                const ArrayLayout&, ViewIndex);
+template ViewStack<std::int32_t> read_laid_out(const Hdf5Input&, const std::string&,
+                                               const ArrayLayout&, ViewIndex);
 template ViewStack<float> read_laid_out(const Hdf5Input&, const std::string&, const ArrayLayout&,
                                         ViewIndex);
 
@@ -353,20 +338,26 @@ template void write_maps(Hdf5Output&, const std::string&, const MapGeometry&, co
 template void write_maps(Hdf5Output&, const std::string&, const MapGeometry&, const std::string&,
                          const Progress&, const std::function<const float*(ViewIndex)>&);
 
+Image<float> marked_map(const DisparityView& map) {
+  Image<float> marked(map.disparity.height, map.disparity.width);
+  for (int y = 0; y < marked.height(); ++y) {
+    for (int x = 0; x < marked.width(); ++x) {
+      marked.at(y, x) =
+          map.is_valid(y, x) ? map.disparity.at(y, x) : std::numeric_limits<float>::quiet_NaN();
+    }
+  }
+  return marked;
+}
+
 void write_disparity(Hdf5Output& file, const std::string& name, const DisparityField& field,
-                     const Progress& progress) {
-  std::vector<float> marked;
-  write_maps<float>(file, name, geometry_of(field.disparity), "px per view step", progress,
-                    [&](ViewIndex view) -> const float* {
-                      const auto disparity = field.disparity.view(view);
-                      if (field.valid.empty()) return disparity.data;
-                      const auto valid = field.valid.view(view);
-                      marked.assign(disparity.data, disparity.data + disparity.size());
-                      for (std::size_t i = 0; i < marked.size(); ++i) {
-                        if (valid.data[i] == 0) marked[i] = std::numeric_limits<float>::quiet_NaN();
-                      }
-                      return marked.data();
-                    });
+                     const MapGeometry& maps, const Progress& progress) {
+  Image<float> marked;
+  write_maps<float>(file, name, maps, "px per view step", progress, [&](ViewIndex view) {
+    marked = Image<float>(maps.height, maps.width);
+    std::ranges::fill(marked, std::numeric_limits<float>::quiet_NaN());
+    if (field.contains(view)) marked = marked_map(field.view(view));
+    return marked.data();
+  });
 }
 
 }  // namespace episcope::io

@@ -88,8 +88,11 @@ void write_stack(Hdf5Output& file, const std::string& name, const ViewStack<T>& 
                 [&](ViewIndex view) { return stack.view(view).data; });
 }
 
-/// Writes disparity with NaN at invalid pixels.
+/// Disparity with NaN at invalid pixels.
+[[nodiscard]] Image<float> marked_map(const DisparityView& map);
+
+/// Writes such maps of these views; NaN for a view without one.
 void write_disparity(Hdf5Output& file, const std::string& name, const DisparityField& field,
-                     const Progress& progress);
+                     const MapGeometry& maps, const Progress& progress);
 
 }  // namespace episcope::io

@@ -159,24 +159,6 @@ Image<float> gray_view(const fs::path& path, int orientation) {
       upright(decode_image(path), orientation));
 }
 
-/// Several grids that a list of `count` views could be, the squarest first, and the two lines.
-std::vector<ReadingChoice> possible_grids(int count) {
-  constexpr std::size_t kMostGrids = 4;
-  std::vector<ReadingChoice> choices;
-  const auto add = [&](int rows, int columns, const std::string& label) {
-    choices.push_back({fmt::format("{}x{}", rows, columns), label});
-  };
-  for (int rows = static_cast<int>(std::sqrt(count)); rows > 1; --rows) {
-    if (count % rows != 0 || choices.size() >= kMostGrids) continue;
-    const int columns = count / rows;
-    add(rows, columns, fmt::format("{} rows of {} views", rows, columns));
-    if (rows != columns) add(columns, rows, fmt::format("{} rows of {} views", columns, rows));
-  }
-  add(1, count, fmt::format("{} views in a row", count));
-  add(count, 1, fmt::format("{} views in a column", count));
-  return choices;
-}
-
 /// Moves the files of a list to where they lie in a grid.
 void arrange(PlacedViews& placed, const ListLayout& layout) {
   std::vector<fs::path> files(placed.views.files.size());
@@ -412,6 +394,23 @@ NamedGrid by_names(const fs::path& folder, const OpenOptions& options) {
 }
 
 }  // namespace
+
+std::vector<ReadingChoice> possible_grids(int count) {
+  constexpr std::size_t kMostGrids = 4;
+  std::vector<ReadingChoice> choices;
+  const auto add = [&](int rows, int columns, const std::string& label) {
+    choices.push_back({fmt::format("{}x{}", rows, columns), label});
+  };
+  for (int rows = static_cast<int>(std::sqrt(count)); rows > 1; --rows) {
+    if (count % rows != 0 || choices.size() >= kMostGrids) continue;
+    const int columns = count / rows;
+    add(rows, columns, fmt::format("{} rows of {} views", rows, columns));
+    if (rows != columns) add(columns, rows, fmt::format("{} rows of {} views", columns, rows));
+  }
+  add(1, count, fmt::format("{} views in a row", count));
+  add(count, 1, fmt::format("{} views in a column", count));
+  return choices;
+}
 
 NamedGrid name_grid(const fs::path& folder, const OpenOptions& options) {
   PosedViews poses = place_by_poses(folder, options);

@@ -36,6 +36,9 @@ struct NamedGrid {
   PosedViews poses{};                           ///< What poses say, without the views themselves.
 };
 
+/// Several grids that a list of `count` views could be, the squarest first, and the two lines.
+[[nodiscard]] std::vector<ReadingChoice> possible_grids(int count);
+
 /// Places every view: by the poses of their cameras if a file states them and they form a light
 /// field; else by name. The option `pattern` decides on names, else their common form
 /// (view_names.h), or their folders (view_folders.h). The option `snake` turns every second row. A

@@ -4,8 +4,11 @@
 #include "engine/core/error.h"
 #include "engine/core/text.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <regex>
 #include <string_view>
@@ -30,24 +33,6 @@ std::optional<NameField> field_named(std::string_view name) {
   if (found == kNames.end()) return std::nullopt;
   return static_cast<NameField>(found - kNames.begin());
 }
-
-}  // namespace
-
-/// Finds fields in names.
-class NamePattern::Matcher {
- public:
-  virtual ~Matcher() = default;
-  /// The texts of the fields; nothing if the name as a whole does not match.
-  [[nodiscard]] virtual std::optional<std::vector<std::string>> match(
-      const std::string& name) const = 0;
-  /// In the order of the pattern.
-  [[nodiscard]] const std::vector<NameField>& fields() const { return fields_; }
-
- protected:
-  std::vector<NameField> fields_;
-};
-
-namespace {
 
 constexpr std::size_t kLongestPattern = 250;
 constexpr std::string_view kRegexPrefix = "re:";
@@ -107,144 +92,71 @@ bool store(NameField field, std::string_view text, NamedView& view) {
   return false;
 }
 
-/// A part of a pattern: a field, `*`, `?`, or one byte.
-struct PatternPart {
-  enum class Kind { Byte, Anything, Character, Number, Coordinate };
-  Kind kind = Kind::Byte;
-  char byte = 0;
-};
-
-/// Every place at which the number, or letter, that begins at `begin` may end, the farthest first.
-std::vector<std::size_t> ends_of_number(std::string_view name, std::size_t begin,
-                                        bool may_have_fraction) {
-  std::size_t first = begin;
-  if (!may_have_fraction && first < name.size() && is_letter(name[first])) return {first + 1};
-  if (first < name.size() && (name[first] == '-' || name[first] == '+')) ++first;
-  std::size_t end = end_of_digits(name, first);
-  if (end == first) return {};
-  if (may_have_fraction) {
-    if (end + 1 < name.size() && name[end] == '.' && is_digit(name[end + 1])) {
-      end = end_of_digits(name, end + 1);
-    }
-    std::size_t exponent = end;
-    if (exponent < name.size() && lower_case(name[exponent]) == 'e') {
-      ++exponent;
-      if (exponent < name.size() && (name[exponent] == '-' || name[exponent] == '+')) ++exponent;
-      const std::size_t stop = end_of_digits(name, exponent);
-      if (stop > exponent) end = stop;
-    }
-  }
-  std::vector<std::size_t> ends;
-  for (; end > first; --end) {
-    if (is_digit(name[end - 1])) ends.push_back(end);
-  }
-  return ends;
-}
-
-/// Of a pattern with {fields}, `*` and `?`.
-class Wildcards final : public NamePattern::Matcher {
- public:
-  explicit Wildcards(const std::string& pattern) {
-    for (std::size_t at = 0; at < pattern.size();) {
-      if (pattern[at] == '{') {
-        at = add_field(pattern, at);
-      } else if (pattern[at] == '*') {
-        parts_.push_back({PatternPart::Kind::Anything});
-        ++at;
-      } else if (pattern[at] == '?') {
-        parts_.push_back({PatternPart::Kind::Character});
-        ++at;
-      } else {
-        parts_.push_back({PatternPart::Kind::Byte, lower_case(pattern[at++])});
-      }
-    }
-  }
-
-  std::optional<std::vector<std::string>> match(const std::string& name) const override {
-    Search search{name, std::vector<bool>((parts_.size() + 1) * (name.size() + 1)), {}};
-    if (!matches(search, 0, 0)) return std::nullopt;
-    return std::vector<std::string>(search.texts.rbegin(), search.texts.rend());
-  }
-
- private:
-  struct Search {
-    std::string_view name;
-    /// What need not be tried again: a part of the pattern at a place of the name.
-    std::vector<bool> has_failed;
-    std::vector<std::string> texts;  ///< Of the fields, the last first.
-  };
-
-  std::size_t add_field(const std::string& pattern, std::size_t begin) {
-    const std::size_t end = pattern.find('}', begin);
-    const auto field =
-        end == std::string::npos
-            ? std::nullopt
-            : field_named(std::string_view(pattern).substr(begin + 1, end - begin - 1));
-    if (!field) {
-      throw InvalidInput("the pattern '" + pattern + "' has an unknown field '" +
-                         pattern.substr(begin, end == std::string::npos ? end : end - begin + 1) +
-                         "'; there are {row}, {col}, {index}, {y} and {x}");
-    }
-    const bool is_position = *field == NameField::Y || *field == NameField::X;
-    parts_.push_back({is_position ? PatternPart::Kind::Coordinate : PatternPart::Kind::Number});
-    fields_.push_back(*field);
-    return end + 1;
-  }
-
-  bool matches(Search& search, std::size_t part, std::size_t at) const {
-    if (part == parts_.size()) return at == search.name.size();
-    const std::size_t state = part * (search.name.size() + 1) + at;
-    if (search.has_failed[state]) return false;
-    const bool is_match = continues(search, part, at);
-    if (!is_match) search.has_failed[state] = true;
-    return is_match;
-  }
-
-  /// `matches` for the part at hand, and then for the rest.
-  bool continues(Search& search, std::size_t part, std::size_t at) const {
-    const std::string_view name = search.name;
-    switch (parts_[part].kind) {
-      case PatternPart::Kind::Byte:
-        return at < name.size() && lower_case(name[at]) == parts_[part].byte &&
-               matches(search, part + 1, at + 1);
-      case PatternPart::Kind::Character: {
-        if (at == name.size()) return false;
-        std::size_t end = at + 1;
-        while (end < name.size() && continues_character(name[end])) ++end;
-        return matches(search, part + 1, end);
-      }
-      case PatternPart::Kind::Anything:
-        return matches(search, part + 1, at) || (at < name.size() && matches(search, part, at + 1));
-      case PatternPart::Kind::Number:
-      case PatternPart::Kind::Coordinate:
-        break;
-    }
-    const bool may_have_fraction = parts_[part].kind == PatternPart::Kind::Coordinate;
-    std::vector<std::size_t> ends = ends_of_number(name, at, may_have_fraction);
-    if (part + 1 < parts_.size() && parts_[part + 1].kind == PatternPart::Kind::Number) {
-      // Digits that run together belong to both by halves, if that fits.
-      const std::size_t half = at + (end_of_digits(name, at) - at) / 2;
-      std::stable_partition(ends.begin(), ends.end(), [&](std::size_t end) { return end == half; });
-    }
-    for (const std::size_t end : ends) {
-      if (!matches(search, part + 1, end)) continue;
-      search.texts.emplace_back(name.substr(at, end - at));
-      return true;
-    }
-    return false;
-  }
-
-  std::vector<PatternPart> parts_;
-};
-
-constexpr const char* kRefersBack = "refers back to a group, which is not possible here";
-constexpr const char* kTooLarge = "is too large; shorten it";
-
 /// Fields by the number of their group, from 1 on.
 struct Groups {
   std::string expression;  ///< Without names.
   std::vector<std::pair<std::size_t, NameField>> fields;
 };
+
+constexpr std::string_view kNumber = "([-+]?[0-9]+|[a-z])";
+constexpr std::string_view kCoordinate = "([-+]?[0-9]+(?:\\.[0-9]+)?(?:e[-+]?[0-9]+)?)";
+constexpr std::string_view kCharacter = "[^\x80-\xbf][\x80-\xbf]*";  ///< Of UTF-8.
+
+/// Adds the field of a pattern that begins there, and returns where it ends.
+std::size_t add_field(const std::string& pattern, std::size_t begin, Groups& groups) {
+  const std::size_t end = pattern.find('}', begin);
+  const auto field =
+      end == std::string::npos
+          ? std::nullopt
+          : field_named(std::string_view(pattern).substr(begin + 1, end - begin - 1));
+  if (!field) {
+    throw InvalidInput("the pattern '" + pattern + "' has an unknown field '" +
+                       pattern.substr(begin, end == std::string::npos ? end : end - begin + 1) +
+                       "'; there are {row}, {col}, {index}, {y} and {x}");
+  }
+  groups.fields.emplace_back(groups.fields.size() + 1, *field);
+  groups.expression += *field == NameField::Y || *field == NameField::X ? kCoordinate : kNumber;
+  return end + 1;
+}
+
+/// A pattern with {fields}, `*` and `?` as a regular expression.
+Groups translated(const std::string& pattern) {
+  Groups groups;
+  for (std::size_t at = 0; at < pattern.size();) {
+    if (pattern[at] == '{') {
+      at = add_field(pattern, at, groups);
+      continue;
+    }
+    const char c = pattern[at++];
+    if (c == '*') {
+      groups.expression += ".*?";
+    } else if (c == '?') {
+      groups.expression += kCharacter;
+    } else {
+      if (std::ispunct(static_cast<unsigned char>(c)) != 0) groups.expression += '\\';
+      groups.expression += c;
+    }
+  }
+  return groups;
+}
+
+/// Numbers that run together have half of the digits each, if that fits; else any.
+std::vector<std::string> expressions_of(const std::string& expression) {
+  constexpr int kMostHalf = 9;
+  const std::string both = fmt::format("{0}{0}", kNumber);
+  const std::size_t at = expression.find(both);
+  std::vector<std::string> all;
+  for (int digits = 1; digits <= kMostHalf && at != std::string::npos; ++digits) {
+    const std::string halves =
+        fmt::format("([0-9]{{{0}}})([0-9]{{{0},{1}}})(?![0-9])", digits, digits + 1);
+    all.push_back(std::string(expression).replace(at, both.size(), halves));
+  }
+  all.push_back(expression);
+  return all;
+}
+
+constexpr const char* kRefersBack = "refers back to a group, which is not possible here";
+constexpr const char* kTooLarge = "is too large; shorten it";
 
 [[noreturn]] void refuse_regex(const std::string& expression, const std::string& why) {
   throw InvalidInput("the regular expression '" + expression + "' for names of images " + why);
@@ -331,10 +243,12 @@ class GroupNames {
   Groups groups_;
 };
 
-std::regex compile_regex(const std::string& expression, const std::string& as_given) {
+std::regex compile_regex(const std::string& expression, const std::string& as_given,
+                         std::regex::flag_type flags = {}) {
   try {
     // With libstdc++'s own flag, matching cannot take exponential time.
-    return std::regex(expression, std::regex::ECMAScript | std::regex_constants::__polynomial);
+    return std::regex(expression,
+                      std::regex::ECMAScript | std::regex_constants::__polynomial | flags);
   } catch (const std::regex_error& error) {
     switch (error.code()) {
       case std::regex_constants::error_brack:
@@ -363,28 +277,12 @@ std::regex compile_regex(const std::string& expression, const std::string& as_gi
   }
 }
 
-/// Of a regular expression with named groups.
-class Regex final : public NamePattern::Matcher {
- public:
-  explicit Regex(const std::string& text)
-      : groups_(GroupNames(text).take_out()), expression_(compile_regex(groups_.expression, text)) {
-    for (const auto& [group, field] : groups_.fields) fields_.push_back(field);
-  }
-
-  std::optional<std::vector<std::string>> match(const std::string& name) const override {
-    std::smatch found;
-    if (!std::regex_match(name, found, expression_)) return std::nullopt;
-    std::vector<std::string> texts;
-    for (const auto& [group, field] : groups_.fields) texts.push_back(found[group]);
-    return texts;
-  }
-
- private:
-  Groups groups_;
-  std::regex expression_;
-};
-
 }  // namespace
+
+struct NamePattern::Compiled {
+  std::vector<std::regex> expressions;  ///< Of which the first that matches counts.
+  std::vector<std::pair<std::size_t, NameField>> fields;  ///< By the number of their group.
+};
 
 NamePattern::NamePattern(const std::string& text) {
   if (text.size() > kLongestPattern) {
@@ -392,22 +290,33 @@ NamePattern::NamePattern(const std::string& text) {
         "the pattern for names of images is longer than 250 characters; shorten it, with * for "
         "what does not matter");
   }
-  const bool is_regex = text.starts_with(kRegexPrefix);
-  if (is_regex) {
-    matcher_ = std::make_shared<const Regex>(text.substr(kRegexPrefix.size()));
+  Compiled compiled;
+  if (text.starts_with(kRegexPrefix)) {
+    const std::string given = text.substr(kRegexPrefix.size());
+    const Groups groups = GroupNames(given).take_out();
+    compiled = {{compile_regex(groups.expression, given)}, groups.fields};
   } else {
-    matcher_ = std::make_shared<const Wildcards>(text);
+    const Groups groups = translated(text);
+    compiled.fields = groups.fields;
+    for (const std::string& expression : expressions_of(groups.expression)) {
+      compiled.expressions.push_back(compile_regex(expression, text, std::regex::icase));
+    }
   }
-  require_fields(text, matcher_->fields());
+  std::vector<NameField> fields;
+  for (const auto& [group, field] : compiled.fields) fields.push_back(field);
+  require_fields(text, std::move(fields));
+  compiled_ = std::make_shared<const Compiled>(std::move(compiled));
 }
 
 std::optional<NamedView> NamePattern::match(const std::filesystem::path& path) const {
-  const auto texts = matcher_->match(path.filename().string());
-  if (!texts) return std::nullopt;
+  const std::string name = path.filename().string();
+  std::smatch found;
+  const bool is_match = std::ranges::any_of(
+      compiled_->expressions, [&](const std::regex& one) { return regex_match(name, found, one); });
+  if (!is_match) return std::nullopt;
   NamedView view{.path = path};
-  const std::vector<NameField>& fields = matcher_->fields();
-  for (std::size_t i = 0; i < fields.size(); ++i) {
-    if (!store(fields[i], (*texts)[i], view)) return std::nullopt;
+  for (const auto& [group, field] : compiled_->fields) {
+    if (!store(field, found[group].str(), view)) return std::nullopt;
   }
   return view;
 }

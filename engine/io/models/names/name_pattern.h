@@ -25,8 +25,6 @@ struct NamedView {
 /// `re:(?<row>\d+)of(?<col>\d+).*`.
 class NamePattern {
  public:
-  class Matcher;
-
   /// Throws InvalidInput with a sentence about the mistake, also for more than 250 bytes.
   explicit NamePattern(const std::string& text);
 
@@ -35,7 +33,8 @@ class NamePattern {
   [[nodiscard]] std::optional<NamedView> match(const std::filesystem::path& path) const;
 
  private:
-  std::shared_ptr<const Matcher> matcher_;
+  struct Compiled;
+  std::shared_ptr<const Compiled> compiled_;
 };
 
 }  // namespace episcope::io

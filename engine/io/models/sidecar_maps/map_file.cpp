@@ -36,6 +36,9 @@ using Kinds = std::initializer_list<MapKind>;
 
 std::unique_ptr<const ArrayFile> open_map_archive(const fs::path& path) {
   if (suffix_of(path) == ".mat") return open_matlab_file(path);
+  if (has_hdf5_name(path)) {
+    return std::make_unique<const Hdf5Arrays>(std::make_shared<const Hdf5Input>(path));
+  }
   return std::make_unique<const NumpyFile>(path);
 }
 
@@ -117,8 +120,6 @@ bool holds_archived_fractions(const fs::path& path, GridShape grid) {
 
 namespace {
 
-constexpr std::size_t kLongestMapSide = 65536;  ///< In px.
-
 template <std::size_t N>
 bool has_suffix(const fs::path& path, const std::array<std::string_view, N>& suffixes) {
   return std::ranges::find(suffixes, suffix_of(path)) != suffixes.end();
@@ -132,21 +133,15 @@ ViewStack<T> single(const Image<T>& image) {
 }
 
 /// A 4-D array of maps of all views; empty for another number of axes.
-template <class T>
-ViewStack<T> read_grid(const NpyFile& file, GridShape grid) {
-  const ArrayShape& shape = file.shape();
-  if (shape.size() != 4) return {};
-  const bool fits = !file.header().is_fortran && shape[0] == static_cast<std::size_t>(grid.v) &&
-                    shape[1] == static_cast<std::size_t>(grid.u);
-  if (!fits) {
-    throw IoError(file.path(),
-                  fmt::format("the array has the shape {}, but maps of {}×{} views are expected in "
-                              "C order; save it again or remove it",
-                              shape_text(file.header().shape), grid.v, grid.u));
-  }
-  ViewStack<T> stack(grid, static_cast<int>(shape[2]), static_cast<int>(shape[3]));
-  file.read(ArrayShape(4, 0), shape, stack.data());
-  return stack;
+ViewStack<std::int32_t> read_label_grid(const NpyFile& file, GridShape grid) {
+  if (file.shape().size() != 4) return {};
+  const IndexOrder order = file.header().is_fortran ? IndexOrder::Fortran : IndexOrder::C;
+  const ArrayLayout layout{file.shape(), in_index_order(std::string("vuyx"), order)};
+  if (layout.grid() == grid) return read_map_stack<std::int32_t>(file, layout, Progress());
+  throw IoError(file.path(),
+                fmt::format("the array has the shape {}, but maps of {}×{} views are expected; "
+                            "save it again or remove it",
+                            shape_text(file.header().shape), grid.v, grid.u));
 }
 
 /// Values with what is not finite marked as invalid.
@@ -156,54 +151,13 @@ DisparityField marked(ViewStack<float> values) {
   return field;
 }
 
-DisparityField read_npy_values(const fs::path& path, GridShape grid) {
-  const NpyFile file(path);
-  ViewStack<float> maps = read_grid<float>(file, grid);
-  if (maps.empty()) maps = single(read_map(file, file.header().is_fortran));
-  return marked(std::move(maps));
-}
-
 StoredLabels read_npy_label_maps(const fs::path& path, GridShape grid) {
   const NpyFile file(path);
-  StoredLabels labels{read_grid<std::int32_t>(file, grid)};
+  StoredLabels labels{read_label_grid(file, grid)};
   if (labels.numbers.empty()) {
     labels.numbers = single(read_label_map(file, file.header().is_fortran));
   }
   return labels;
-}
-
-/// GT_LABELS, or the only dataset.
-StoredLabels read_hdf5_labels(const fs::path& path, GridShape grid) {
-  const Hdf5Input file(path);
-  const std::vector<Hdf5Dataset> all = file.datasets();
-  if (!file.has(kTrueLabels) && all.size() != 1) {
-    throw IoError(path, fmt::format("{} datasets were found and none of them is {}; store the "
-                                    "labels alone",
-                                    all.size(), kTrueLabels));
-  }
-  const Hdf5Dataset labels = file.dataset(file.has(kTrueLabels) ? kTrueLabels : all.front().name);
-  const std::size_t rank = labels.shape.size();
-  const bool is_map = rank == 2;
-  const bool is_grid = rank == 4 && labels.shape[0] == static_cast<std::size_t>(grid.v) &&
-                       labels.shape[1] == static_cast<std::size_t>(grid.u);
-  if (!is_map && !is_grid) {
-    throw IoError(path, fmt::format("the dataset {} has the shape {}, but labels of one view or of "
-                                    "{}×{} views are expected; remove or replace it",
-                                    labels.name, shape_text(labels.shape), grid.v, grid.u));
-  }
-  // That the file can hold as many is known: Hdf5Input looks at every dataset.
-  const bool is_sound = std::ranges::all_of(
-      labels.shape, [](std::size_t length) { return length > 0 && length <= kLongestMapSide; });
-  if (!is_sound) {
-    throw IoError(path, fmt::format("the dataset {} claims the shape {}, but sides of 1 to {} are "
-                                    "expected; copy it again or remove it",
-                                    labels.name, shape_text(labels.shape), kLongestMapSide));
-  }
-  StoredLabels stored{ViewStack<std::int32_t>(is_grid ? grid : GridShape{1, 1},
-                                              static_cast<int>(labels.shape[rank - 2]),
-                                              static_cast<int>(labels.shape[rank - 1]))};
-  file.read(labels.name, {Hdf5Shape(rank, 0), labels.shape}, stored.numbers.data());
-  return stored;
 }
 
 std::int32_t packed_level(float value, const fs::path& path) {
@@ -239,10 +193,6 @@ StoredLabels picture_labels(const Image<T>& image, const fs::path& path) {
   return labels;
 }
 
-bool is_hdf5(const fs::path& path) {
-  return has_suffix(path, std::array<std::string_view, 2>{".h5", ".hdf5"});
-}
-
 }  // namespace
 
 bool can_hold_values(const fs::path& path) {
@@ -258,7 +208,6 @@ bool can_hold_labels(const fs::path& path) {
 }
 
 DisparityField read_values(const fs::path& path, GridShape grid) {
-  if (suffix_of(path) == ".npy") return read_npy_values(path, grid);
   if (is_archive_of_maps(path)) return marked(read_archived_values(path, grid));
   DisparityField field = read_disparity_map(path, grid);
   if (!(field.disparity.grid() == GridShape{1, 1}) || field.disparity.first() == ViewIndex{}) {
@@ -277,14 +226,13 @@ DisparityField read_values(const fs::path& path, GridShape grid) {
 
 StoredLabels read_stored_labels(const fs::path& path, GridShape grid) {
   if (suffix_of(path) == ".npy") return read_npy_label_maps(path, grid);
-  if (is_archive_of_maps(path)) return {read_archived_labels(path, grid)};
-  if (is_hdf5(path)) return read_hdf5_labels(path, grid);
+  if (is_archive_of_maps(path) || has_hdf5_name(path)) return {read_archived_labels(path, grid)};
   return std::visit([&](const auto& image) { return picture_labels(image, path); },
                     decode_image(path));
 }
 
 OwnFile own_file(const fs::path& path) {
-  if (!is_hdf5(path) || !has_hdf5_signature(path)) return OwnFile::None;
+  if (!has_hdf5_name(path) || !has_hdf5_signature(path)) return OwnFile::None;
   try {
     const Hdf5Input file(path);
     if (file.has(kTrueLabels)) return OwnFile::None;

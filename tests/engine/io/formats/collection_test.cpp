@@ -57,8 +57,8 @@ class CollectionTest : public QObject {
     std::fill_n(estimate.field.valid.data(), 24 * 32, std::uint8_t{1});
     io::write_result(path, estimate, Progress(1));
   }
-  std::vector<io::CollectionEntry> found(const fs::path& cache = {}) const {
-    return io::find_light_fields(root(), {.cache_file = cache}, Progress(1));
+  std::vector<io::CollectionEntry> found() const {
+    return io::find_light_fields(root(), {}, Progress(1));
   }
   /// "a/b:archive", by path; "!" for what cannot be opened.
   static QStringList summary(const std::vector<io::CollectionEntry>& entries,
@@ -77,14 +77,6 @@ class CollectionTest : public QObject {
   void init() {
     folder_ = std::make_unique<QTemporaryDir>();
     fs::create_directories(root());
-  }
-
-  void scenesNamedLikeFoldersOfViews_areScenes() {
-    for (const char* name : {"lf", "box"}) {
-      write_grid(name);
-      write_text(root() / name / "gt_disparity.pfm", "");
-    }
-    QCOMPARE(summary(), (QStringList{"box:image_grid", "lf:image_grid"}));
   }
 
   void everyForm_isFoundAtAnyDepthAndDescribedByItsHeaders() {
@@ -172,6 +164,15 @@ class CollectionTest : public QObject {
     QCOMPARE(summary(), (QStringList{"grid:image_grid", "scene:archive"}));
   }
 
+  void exportsOfLabels_areNoLightField() {
+    write_archive("scene");
+    write_grid("out/SegmentationClass");
+    write_grid("out/JPEGImages");
+    write_text(root() / "out" / "labelmap.txt", "# label:color_rgb:parts:actions\n");
+
+    QCOMPARE(summary(), QStringList{"scene:archive"});
+  }
+
   void drawingsOfLabels_areNoLightField() {
     write_archive("scene");
     Image<std::uint8_t> strokes(400, 400, 3, 255);
@@ -232,66 +233,19 @@ class CollectionTest : public QObject {
     QCOMPARE(entries[1].results.size(), std::size_t{2});
   }
 
-  void cache_givesTheSameAndNoticesChanges() {
-    write_archive("a");
-    write_grid("b");
-    const fs::path cache = root().parent_path() / "cache/list.json";
-    const QStringList first = summary(found(cache), root());
-    QVERIFY(fs::exists(cache));
-
-    QCOMPARE(summary(found(cache), root()), first);
-    write_archive("c");
-    for (const char* view : {"b/v_0_0.png", "b/v_0_2.png", "b/v_1_1.png", "b/v_2_0.png"}) {
-      fs::remove(root() / view);
-    }
-
-    QCOMPARE(summary(found(cache), root()), QStringList({"a:archive", "b:!", "c:archive"}));
-  }
-
-  void cache_isUsed() {
-    write_archive("a");
-    const fs::path cache = root().parent_path() / "list.json";
-    (void)found(cache);
-    std::ifstream in(cache);
-    std::string text((std::istreambuf_iterator<char>(in)), {});
-    const std::size_t at = text.find("depth of all views");
-    QVERIFY(at != std::string::npos);
-    write_text(cache, text.replace(at, 18, "what the cache say"));
-
-    QCOMPARE(found(cache)[0].probe.truth, std::string("what the cache say"));
-  }
-
-  void damagedCache_isNoHindrance_data() {
-    QTest::addColumn<QByteArray>("text");
-    QTest::newRow("empty") << QByteArray();
-    QTest::newRow("no JSON") << QByteArray("\x00\xff{[", 4);
-    QTest::newRow("truncated") << QByteArray("{\"program\": \"");
-    QTest::newRow("another") << QByteArray("[1, 2, 3]");
-    QTest::newRow("deep") << QByteArray(200000, '[');
-  }
-  void damagedCache_isNoHindrance() {
-    QFETCH(QByteArray, text);
-    write_archive("a");
-    const fs::path cache = root().parent_path() / "list.json";
-    write_text(cache, text.toStdString());
-
-    QCOMPARE(summary(found(cache), root()), QStringList({"a:archive"}));
-    QCOMPARE(summary(found(cache), root()), QStringList({"a:archive"}));
-  }
-
   void search_isCancelledAndProgressive() {
     write_archive("a");
     write_archive("b");
     std::stop_source stop;
     int count = 0;
-    const io::CollectionOptions options{.on_entry = [&](const io::CollectionEntry&) {
+    const auto on_entry = [&](const io::CollectionEntry&) {
       ++count;
       stop.request_stop();
-    }};
+    };
 
     QVERIFY_THROWS_EXCEPTION(
         Cancelled,
-        (void)io::find_light_fields(root(), options, Progress(stop.get_token(), nullptr, 1)));
+        (void)io::find_light_fields(root(), on_entry, Progress(stop.get_token(), nullptr, 1)));
     QCOMPARE(count, 1);
   }
 

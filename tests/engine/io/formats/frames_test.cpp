@@ -272,27 +272,6 @@ class FramesTest : public QObject {
     }
   }
 
-  void pagesThatAreChannels_makeColouredViews_data() {
-    QTest::addColumn<bool>("is_channel_first");
-    QTest::newRow("one after the other") << false;
-    QTest::newRow("all views of one first") << true;
-  }
-  void pagesThatAreChannels_makeColouredViews() {
-    QFETCH(bool, is_channel_first);
-    const ViewStack<std::uint8_t> views = some_views();
-    write_channel_pages(path("stack.tif"), views, is_channel_first);
-
-    const Scene scene = open(path("stack.tif"));
-
-    QCOMPARE(scene.light_field->grid(), (GridShape{4, 5}));
-    const auto& read = std::get<ViewStack<std::uint8_t>>(scene.light_field->samples());
-    QCOMPARE(read.channels(), 3);
-    for (const int channel : {0, 1, 2}) {
-      QCOMPARE(int{read.view({2, 3}).at(17, 40, channel)},
-               views.view({2, 3}).at(17, 40, 0) * (2 + channel) / 4);
-    }
-  }
-
   void channelsThatTheFileStates_makeColouredViews_data() {
     QTest::addColumn<int>("channels");
     QTest::addColumn<bool>("is_channel_first");
