@@ -163,14 +163,16 @@ std::pair<EstimatePtr, ViewIndex> judged_estimate(const py::object& map, const S
 py::dict score_scene(const py::object& map, const OpenedScene& opened, EvaluationOptions options,
                      const py::object& view, const io::MapReading& reading) {
   const Scene& scene = *opened.scene;
-  const auto [estimate, at] =
+  const auto subject =
       judged_estimate(map, scene, view_from(view, scene.light_field->grid()), reading);
+  const Estimate& estimate = *subject.first;
+  const ViewIndex at = subject.second;
   const JudgedResult judged = result_of_job(py::none(), 0, [&](const Progress& job) {
     options.progress = job;
-    return judge_result(*estimate, scene, options, at);
+    return judge_result(estimate, scene, options, at);
   });
   py::dict scores = object_from(
-      judged_json(*estimate, scene, judged, options.protocol, judged.evaluation->metrics));
+      judged_json(estimate, scene, judged, options.protocol, judged.evaluation->metrics));
   if (scores.contains("notes")) {
     scores["notes"] = in_python(py::cast<std::vector<std::string>>(scores["notes"]));
   }

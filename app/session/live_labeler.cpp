@@ -61,7 +61,7 @@ void relabel(LabelProbabilities& probabilities, std::int32_t from, std::int32_t 
   std::ranges::replace(renamed, from, to);
   std::vector<std::int32_t> ids = renamed;
   std::ranges::sort(ids);
-  ids.erase(std::ranges::unique(ids).begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   for (ProbabilityMap& map : probabilities.views) {
     const VolumeView<const std::uint8_t> old = std::as_const(map).view();
     ProbabilityMap sum(old.height, static_cast<int>(ids.size()), old.width);

@@ -33,7 +33,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 #include <iterator>
 #include <limits>
 #include <utility>
@@ -182,38 +181,6 @@ bool names_light_field_only(const std::string& path) {
   return !builtin_scene_id(path).empty() || io::is_folder(path) || is_hdf5_light_field(path);
 }
 
-namespace {
-
-bool are_same(const DisparityField& a, const DisparityField& b) {
-  const auto has_same = [](const auto& one, const auto& other) {
-    return one.size() == other.size() &&
-           std::memcmp(one.data(), other.data(), one.size() * sizeof(*one.data())) == 0;
-  };
-  return a.disparity.height() == b.disparity.height() && has_same(a.disparity, b.disparity) &&
-         has_same(a.valid, b.valid);
-}
-
-/// Notes options that change nothing: the maps are read again without each.
-void note_unused_options(const LightField& light_field, const fs::path& path,
-                         const io::MapReading& reading, Estimate& estimate) {
-  const ParameterSet given = io::given_options(reading);
-  for (const auto& option : given) {
-    ParameterSet others = given;
-    std::erase(others, option);
-    try {
-      const Estimate without = read_result_of(light_field, path, io::map_schema().parse(others));
-      if (!are_same(without.field, estimate.field) || without.border_px != estimate.border_px) {
-        continue;
-      }
-      estimate.notes.push_back(fmt::format(finding_text("option.unused"), option.first));
-    } catch (const Error&) {
-      continue;  // it cannot be read without
-    }
-  }
-}
-
-}  // namespace
-
 Estimate read_result_of(const LightField& light_field, const fs::path& path,
                         const io::MapReading& reading) {
   if (io::is_segmentation_file(path)) {
@@ -230,7 +197,6 @@ Estimate read_result_of(const LightField& light_field, const fs::path& path,
   require_no_padding(estimate, light_field, path);
   if (!io::is_result_file(path) && estimate.border_px == 0) find_border_of(estimate, light_field);
   check_fits(estimate, light_field, path.string());
-  note_unused_options(light_field, path, reading, estimate);
   return estimate;
 }
 

@@ -571,7 +571,6 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
      "This container of a Lytro camera holds processed pictures, without what the sensor saw: {}. "
      "They are no views of a light field; episcope-cli decode writes them as files.",
      "Processed pictures, no light field: %1", FindingLevel::Note},
-    {"option.unused", "--{} has no effect on this map."},
     {"labels.colors_first", "A first label of 0 has no effect on colors, which are no numbers."},
     {"option.ignored", "--{} is ignored, because this is {}.", "“%1” is ignored."},
     {"scribbles.unread", "Scribbles were not read: {}"},

@@ -2264,10 +2264,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>%1: %2 % der Pixel haben keinen Wert und zählen als die fernste wahre Disparität, %3 px: Es gibt kein anderes Pixel</translation>
     </message>
     <message>
-        <source>--%1 has no effect on this map.</source>
-        <translation>--%1 ändert an dieser Karte nichts.</translation>
-    </message>
-    <message>
         <source>A first label of 0 has no effect on colors, which are no numbers.</source>
         <translation>Ein erstes Label 0 ändert an Farben nichts, denn sie sind keine Zahlen.</translation>
     </message>

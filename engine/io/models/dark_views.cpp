@@ -419,7 +419,7 @@ Image<std::uint8_t> seen_in(const Image<std::uint8_t>& is_wedge, const IsDark& i
   Image<std::uint8_t> seen(is_wedge.height(), is_wedge.width());
   std::vector<PixelIndex> next;
   const auto visit_neighbors = [&](PixelIndex at, const auto& visit) {
-    for (const auto [dy, dx] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+    for (const auto& [dy, dx] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
       const PixelIndex other{at.y + dy, at.x + dx};
       if (other.y >= 0 && other.y < height && other.x >= 0 && other.x < width) visit(other);
     }

@@ -645,7 +645,7 @@ std::vector<LabelInfo> all_labels(const Scribbles& labels) {
 /// New ids of all labels, by their former ones; each new id once. Names go first.
 std::map<std::int32_t, std::int32_t> new_ids(std::vector<LabelInfo> all, std::int32_t most,
                                              const std::vector<LabelInfo>& taken) {
-  std::ranges::stable_partition(all, is_named);
+  std::stable_partition(all.begin(), all.end(), is_named);
   std::map<std::int32_t, std::int32_t> ids;
   std::set<std::int32_t> used;
   for (const LabelInfo& label : all) {
