@@ -13,6 +13,7 @@
 #include "widgets/panels/label_palette.h"
 
 #include <QColorDialog>
+#include <QCoreApplication>
 #include <QInputDialog>
 #include <QLocale>
 #include <QPushButton>
@@ -108,7 +109,7 @@ void LabelController::addChoiceCommands() {
          .live_text =
              [this, id] {
                const LabelInfo* label = at(id);
-               return label ? QString::fromStdString(label->name) : tr("Label %1").arg(id);
+               return label ? label_name(*label) : tr("Label %1").arg(id);
              }});
   }
   bench_.commands.add({.menu = Menu::Labels, .section = label_section::kEdit, .enabled = has_label},
@@ -245,13 +246,13 @@ void LabelController::merge(int from) {
   std::vector<int> ids;
   for (const LabelInfo& each : document_.labels().labels()) {
     if (each.id == label->id) continue;
-    names << QString("%1 · %2").arg(each.id).arg(QString::fromStdString(each.name));
+    names << QString("%1 · %2").arg(each.id).arg(label_name(each));
     ids.push_back(each.id);
   }
   auto* dialog = named("merge_labels", new QInputDialog(&bench_.window));
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   dialog->setWindowTitle(tr("Merge labels"));
-  dialog->setLabelText(tr("Merge “%1” into:").arg(QString::fromStdString(label->name)));
+  dialog->setLabelText(tr("Merge “%1” into:").arg(label_name(*label)));
   dialog->setComboBoxItems(names);
   dialog->setComboBoxEditable(false);
   connect(dialog, &QInputDialog::textValueSelected, this,
@@ -281,9 +282,8 @@ void LabelController::askForNumber(int id) {
   auto* dialog = named("renumber_label", new QInputDialog(&bench_.window));
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   dialog->setWindowTitle(tr("Change the number of a label"));
-  dialog->setLabelText(tr("Number of “%1”, from 1 to %2:")
-                           .arg(QString::fromStdString(label->name))
-                           .arg(LabelSet::kMaxId));
+  dialog->setLabelText(
+      tr("Number of “%1”, from 1 to %2:").arg(label_name(*label)).arg(LabelSet::kMaxId));
   dialog->setInputMode(QInputDialog::IntInput);
   dialog->setIntRange(1, LabelSet::kMaxId);
   dialog->setIntValue(id);
@@ -316,7 +316,7 @@ void LabelController::rename() {
 
 bool LabelController::refuseLocked(const LabelInfo& label, const QString& hint) {
   if (!bench_.session.place().label_marks.locked.contains(label.id)) return false;
-  bench_.messages.hint(hint.arg(QString::fromStdString(label.name)));
+  bench_.messages.hint(hint.arg(label_name(label)));
   return true;
 }
 
@@ -339,7 +339,7 @@ void LabelController::remove(int id) {
       &bench_.window, {.name = "remove_label",
                        .title = tr("Remove a label"),
                        .text = tr("Remove “%1” and everything painted with it, on all views?")
-                                   .arg(QString::fromStdString(label->name))});
+                                   .arg(label_name(*label))});
   box->addButton(tr("Remove"), QMessageBox::AcceptRole)->setObjectName("remove_label.remove");
   connect(box, &QDialog::accepted, this, [this, id] { removeNow(id); });
   box->open();
@@ -355,7 +355,7 @@ void LabelController::recolor(int id) {
   auto* dialog =
       new QColorDialog(QColor(label->color[0], label->color[1], label->color[2]), &bench_.window);
   dialog->setObjectName("label_color");
-  dialog->setWindowTitle(tr("Color of “%1”").arg(QString::fromStdString(label->name)));
+  dialog->setWindowTitle(tr("Color of “%1”").arg(label_name(*label)));
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   connect(dialog, &QColorDialog::colorSelected, this, [this, id](const QColor& color) {
     const Rgb rgb{static_cast<std::uint8_t>(color.red()), static_cast<std::uint8_t>(color.green()),
@@ -530,7 +530,7 @@ class LabelLookController : public QObject {
     QStringList names;
     for (const LabelInfo& label : bench_.document.labels().labels()) {
       const bool is_locked = bench_.session.place().label_marks.locked.contains(label.id);
-      if (is_locked && touched.contains(label.id)) names << QString::fromStdString(label.name);
+      if (is_locked && touched.contains(label.id)) names << label_name(label);
     }
     if (names.isEmpty()) return;
     bench_.messages.hint((is_undo ? tr("Undo changed locked labels: %1. Redo restores them.")

@@ -12,6 +12,7 @@
 #include "widgets/controls/picture.h"
 #include "widgets/controls/text.h"
 
+#include <QCoreApplication>
 #include <QAction>
 #include <QComboBox>
 #include <QDialog>
@@ -24,7 +25,7 @@ namespace episcope {
 namespace {
 
 QString quoted(const LabelInfo& label) {
-  return LabelReviewController::tr("“%1”").arg(QString::fromStdString(label.name));
+  return LabelReviewController::tr("“%1”").arg(label_name(label));
 }
 
 }  // namespace
@@ -356,9 +357,8 @@ class StripController : public QObject {
   void update() {
     if (!dialog_->isVisible()) return;
     const LabelInfo* label = bench_.labels.info();
-    dialog_->setWindowTitle(label
-                                ? tr("“%1” over the views").arg(QString::fromStdString(label->name))
-                                : tr("Label over the views"));
+    dialog_->setWindowTitle(label ? tr("“%1” over the views").arg(label_name(*label))
+                                  : tr("Label over the views"));
     const auto source =
         label ? bench_.overlay.sourceOf({render::Quantity::Segmentation}) : std::nullopt;
     if (!source || source->labeling->labels.grid() != bench_.session.light_field()->grid()) {

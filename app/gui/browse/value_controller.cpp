@@ -52,8 +52,7 @@ namespace {
 /// `unnamed`: of a label without a name, %1 is its id.
 QString name_in(const std::vector<LabelInfo>& infos, int id, const QString& unnamed) {
   const auto found = std::ranges::find(infos, id, &LabelInfo::id);
-  return found == infos.end() || found->name.empty() ? unnamed.arg(id)
-                                                     : QString::fromStdString(found->name);
+  return found == infos.end() || found->name.empty() ? unnamed.arg(id) : label_name(*found);
 }
 
 }  // namespace

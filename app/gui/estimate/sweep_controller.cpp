@@ -440,6 +440,7 @@ class SweepController : public QObject {
     Session& session = bench_.session;
     const SweepPoint& point = *bench_.scenes.sweeps().find(current_, place);
     const int id = session.add_estimate(map, point.display_range, session.generation());
+    session.mark_saved(id);     // the sweep holds it
     session.show_estimate(id);  // it was asked for
     session.rename_estimate(id, name_of(*current(), point).toStdString());
     shown_[session.generation()] = {id, session.find_estimate(id)->name};
@@ -476,12 +477,12 @@ class SweepController : public QObject {
     return found == shown_.end() ? Shown() : found->second;
   }
 
-  // Keeps results that the user named, annotated or saved.
+  // Keeps results that the user named or annotated.
   void dropShown() {
     Session& session = bench_.session;
     const Shown former = std::exchange(shown_[session.generation()], {});
     const EstimateEntry* entry = session.find_estimate(former.id);
-    if (!entry || entry->name != former.name || !entry->note.empty() || entry->is_saved) return;
+    if (!entry || entry->name != former.name || !entry->note.empty()) return;
     session.remove_estimate(former.id);
   }
 
@@ -501,6 +502,7 @@ class SweepController : public QObject {
 
   void keep() {
     const Shown kept = std::exchange(shown_[bench_.session.generation()], {});
+    bench_.session.mark_saved(kept.id, false);
     bench_.messages.hint(
         tr("%1 stays in the list of results.").arg(QString::fromStdString(kept.name)));
     describe();

@@ -15,6 +15,8 @@
 #include "widgets/controls/message_bar.h"
 #include "widgets/controls/text.h"
 
+#include <QCoreApplication>
+
 #include <algorithm>
 
 namespace episcope {

@@ -21,6 +21,7 @@
 #include "widgets/panels/scene_panel.h"
 
 #include <QAction>
+#include <QCoreApplication>
 #include <QFileInfo>
 #include <QHash>
 #include <QImage>

@@ -19,6 +19,7 @@
 
 #include <QAbstractButton>
 #include <QComboBox>
+#include <QCoreApplication>
 #include <QFileInfo>
 #include <QPushButton>
 #include <QSignalBlocker>
@@ -315,7 +316,7 @@ class ProjectGuard : public QObject {
     }
     for (const Sweep& sweep : bench_.scenes.sweeps().all()) {
       const bool is_left = what != Leaving::Scene || is_of_scene(sweep, session.generation());
-      if (is_left && !sweep.is_saved && point_count(sweep) > 0) {
+      if (is_left && !sweep.is_saved) {
         loss.results.push_back(
             tr("sweep of %1").arg(QString::fromStdString(sweep.base.method)).toStdString());
       }

@@ -9,6 +9,7 @@
 
 #include <QEvent>
 #include <QMenu>
+#include <QPointer>
 #include <QSplitter>
 #include <QTabBar>
 #include <QTabWidget>
