@@ -7,7 +7,6 @@
 #include "app/gui/annotate/label_exchange.h"
 #include "app/gui/annotate/label_review.h"
 #include "app/gui/annotate/scribble_controller.h"
-#include "app/gui/annotate/segment_commands.h"
 #include "app/gui/annotate/segment_controller.h"
 #include "app/gui/browse/info_controller.h"
 #include "app/gui/browse/measure_controller.h"

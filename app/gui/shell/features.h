@@ -15,6 +15,8 @@ class LabelReviewPanel;
 class MethodPanel;
 class MetricTable;
 class RegionController;
+class SegmentController;
+class SegmentPanel;
 
 /// Row of the table of features. A feature adds its widgets, tabs, commands and controllers to the
 /// window. Features share only the workbench.
@@ -34,6 +36,8 @@ void add_cloud(const Workbench& bench);
 void add_recovery(const Workbench& bench);
 void add_label_look(const Workbench& bench, LabelPalette* palette);
 void add_label_strip(const Workbench& bench, LabelReviewPanel* panel);
+/// What segments, smooths, shows and exports labels, in the menus and on the panel.
+void add_segment_commands(const Workbench& bench, SegmentController& segments, SegmentPanel& panel);
 void add_metrics(const Workbench& bench, MetricTable* table, const RegionController& region);
 void add_error_plots(const Workbench& bench, const RegionController& region);
 void add_method_range(const Workbench& bench, MethodPanel& panel);
