@@ -91,7 +91,7 @@ void MainWindowTest::escape_cancelsTheRun() {
 
   QVERIFY(f.window.bench().session.estimates().empty());
   QCOMPARE(f.window.findChild<MessageBar*>("messageBar")->text(),
-           QString("EPI_L · edge was cancelled at 0 %."));
+           QString("endless was cancelled at 0 %."));
 }
 
 void MainWindowTest::runThatTookLong_isAskedForBeforeItEnds_data() {

@@ -402,7 +402,7 @@ void LabelExchangeTest::lightFieldOnAnnotate_isOpened() {
   Exchanging f;
   f.window.bench().frame.showTab("annotate");
   QMimeData data;
-  data.setUrls({QUrl::fromLocalFile(f.writeScene("edge", WindowFixture::smallOptions()))});
+  data.setUrls({QUrl::fromLocalFile(f.writeScene("objects", WindowFixture::smallOptions()))});
   QDropEvent drop(QPointF(50, 50), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
 
   QCoreApplication::sendEvent(&f.window, &drop);

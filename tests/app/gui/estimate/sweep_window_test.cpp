@@ -430,6 +430,7 @@ void SweepWindowTest::shownPoint_isNotAskedForBesideItsSweep() {
   QVERIFY(box);
   QCOMPARE(box->text(), QString("Not saved: sweep of epi_l."));
   box->button(QMessageBox::Cancel)->click();
+  QTRY_VERIFY(!f.window.findChild<QMessageBox*>("unsaved_results"));
 
   f.click("sweep.keep");
   f.window.close();

@@ -687,13 +687,14 @@ void OpeningTest::brokenResult_isToldUntilItIsRead() {
   choose(f, f.path("whole.pfm"));
 
   QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().session.estimates().size(), 2U, kScenePatience);
-  QVERIFY2(messages->text().contains("broken.pfm failed"), qPrintable(messages->text()));
+  QVERIFY2(messages->isVisible() && messages->text().contains("broken.pfm failed"),
+           qPrintable(messages->text()));
 
   QVERIFY(QFile::remove(broken.fileName()) && QFile::copy(f.path("whole.pfm"), broken.fileName()));
   choose(f, broken.fileName());
 
   QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().session.estimates().size(), 3U, kScenePatience);
-  QVERIFY2(!messages->text().contains("broken.pfm failed"), qPrintable(messages->text()));
+  QVERIFY(!messages->isVisible() || !messages->text().contains("broken.pfm failed"));
 }
 
 void OpeningTest::patternOfNames_isNamedWithItsOption() {
