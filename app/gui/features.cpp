@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/gui/features.h"
+#include "app/gui/shell/features.h"
 
 #include "app/gui/annotate/annotate_controller.h"
 #include "app/gui/annotate/annotation_files.h"
@@ -7,27 +7,16 @@
 #include "app/gui/annotate/label_exchange.h"
 #include "app/gui/annotate/label_review.h"
 #include "app/gui/annotate/scribble_controller.h"
-#include "app/gui/annotate/segment_commands.h"
 #include "app/gui/annotate/segment_controller.h"
-#include "app/gui/browse/browse_controller.h"
-#include "app/gui/browse/cloud_controller.h"
-#include "app/gui/browse/focus_controller.h"
 #include "app/gui/browse/info_controller.h"
 #include "app/gui/browse/measure_controller.h"
-#include "app/gui/browse/value_controller.h"
 #include "app/gui/capture/capture_controller.h"
 #include "app/gui/compare/compare_controller.h"
-#include "app/gui/compare/metric_controller.h"
 #include "app/gui/compare/picture_export.h"
 #include "app/gui/compare/region_controller.h"
 #include "app/gui/compare/statistics_controller.h"
 #include "app/gui/estimate/estimate_controller.h"
-#include "app/gui/files/autosave.h"
-#include "app/gui/files/collection_controller.h"
 #include "app/gui/files/file_controller.h"
-#include "app/gui/files/project_controller.h"
-#include "app/gui/shell/appearance.h"
-#include "app/gui/shell/command_palette.h"
 #include "app/gui/shell/commands.h"
 #include "app/gui/shell/frame.h"
 #include "app/gui/shell/manual_window.h"
@@ -73,20 +62,19 @@ void add_annotating(const Workbench& bench) {
                       .room = room});
   new AnnotateController(bench, brush);
   new LabelController(bench, palette);
-  new LabelLookController(bench, palette);
+  add_label_look(bench, palette);
   new ScribbleController(bench, bar);
   new AnnotationFiles(bench, bar);
   new LabelImporter(bench, bar);
-  new RecoveryController(bench);
+  add_recovery(bench);
 }
 
 // Browsing views and EPIs, the focus plane, pixel values, and facts about the light field.
 void add_browsing(const Workbench& bench) {
-  new BrowseController(bench);
-  new FocusController(bench);
+  add_views(bench);
+  add_focus(bench);
   new InfoController(bench);
-  new ToneController(bench);
-  new ValueController(bench);
+  add_values(bench);
 }
 
 void add_capture(const Workbench& bench) {
@@ -99,61 +87,6 @@ void add_capture(const Workbench& bench) {
                       .widget = tab,
                       .waits = true});
   new CaptureController(bench, tab);
-}
-
-void add_commands(const Workbench& bench, CloudController* cloud) {
-  bench.commands.add(
-      {.menu = Menu::Panes},
-      {{.id = "cloud.large",
-        .text = CloudController::tr("3D in place of the view"),
-        .tip = CloudController::tr(
-            "Shows the 3D view in place of the current view, or moves it back into its tab"),
-        .icon = "cube",
-        .keys = {Qt::Key_F4},
-        .run = [cloud] { cloud->setLarge(!cloud->isLarge()); },
-        .checked = [cloud] { return cloud->isLarge(); }},
-       {.id = "cloud.window",
-        .text = CloudController::tr("3D in its own window"),
-        .tip = CloudController::tr(
-            "Detaches the 3D view and its controls into their own window, or docks them again"),
-        .icon = "sides",
-        .keys = {CloudController::tr("Shift+F4")},
-        .run =
-            [&frame = bench.frame, cloud] {
-              cloud->setLarge(false);
-              frame.showTab("cloud");
-              frame.panes().toggle("tab.cloud");
-            },
-        .checked = [&frame = bench.frame] { return frame.panes().isTorn("tab.cloud"); }}});
-  bench.commands.add({.id = "cloud.export",
-                      .menu = Menu::Export,
-                      .text = CloudController::tr("3D view…"),
-                      .tip = CloudController::tr("Writes the points or surfaces that the 3D view "
-                                                 "shows, in their colors, as PLY"),
-                      .icon = "export",
-                      .keys = {CloudController::tr("Ctrl+Alt+E")},
-                      .run = [cloud] { cloud->askToExport(); },
-                      .section = section::kPictures,
-                      .enabled = [cloud] { return cloud->hasScene(); }});
-}
-
-// The 3D view.
-void add_cloud(const Workbench& bench) {
-  auto* tab = new QWidget(&bench.frame);
-  bench.frame.addTab({.id = "cloud",
-                      .title = CloudController::tr("3D"),
-                      .command_text = CloudController::tr("3D tab"),
-                      .command_tip = CloudController::tr("Shows the result in 3D, as points or as "
-                                                         "a surface"),
-                      .icon = "cube",
-                      .widget = tab});
-  add_commands(bench, new CloudController(bench, tab));
-}
-
-// Light fields of a folder, and frames of a sequence.
-void add_collection(const Workbench& bench) {
-  new CollectionController(bench);
-  new FrameController(bench);
 }
 
 // Overlays, comparison of results, statistics, the table of metrics, pictures and movies.
@@ -174,83 +107,10 @@ void add_comparing(const Workbench& bench) {
   new CompareController(bench, bar);
   new StatisticsController(bench, statistics);
   const auto* part = new RegionController(bench, region);
-  new MetricController(bench, metrics, *part);
-  new ErrorPlotController(bench, *part);
+  add_metrics(bench, metrics, *part);
+  add_error_plots(bench, *part);
   add_picture_export(bench);
   new MovieExport(bench);
-}
-
-constexpr int kIconSize = 64;
-
-struct HelpText {
-  Q_DECLARE_TR_FUNCTIONS(episcope::Help)
-};
-
-void show_shortcuts(Commands& commands, QWidget& window) {
-  auto* shortcuts = window.findChild<ShortcutWindow*>();
-  if (!shortcuts) shortcuts = new ShortcutWindow(commands, &window);
-  shortcuts->show();
-  shortcuts->raise();
-}
-
-void show_about(QWidget& window) {
-  auto* box =
-      named("about",
-            new QMessageBox(
-                QMessageBox::NoIcon, HelpText::tr("About Episcope"),
-                HelpText::tr(
-                    "<b>Episcope %1</b><p>Views, EPIs, disparity and labels of 4D light fields.</p>"
-                    "<p>BSD 3-Clause license.</p>")
-                    .arg(kVersion),
-                QMessageBox::Close, &window));
-  box->setIconPixmap(program_icon().pixmap(kIconSize));
-  box->setAttribute(Qt::WA_DeleteOnClose);
-  box->open();
-}
-
-// The list of keys, the command palette, colors, language and About.
-void add_help(const Workbench& bench) {
-  Commands& commands = bench.commands;
-  QWidget& window = bench.window;
-  auto* palette = new CommandPalette(commands, &window);
-  add_theme_commands(commands);
-  add_language_commands(commands, bench.messages);
-  auto* manual = new ManualWindow(&window);
-  commands.add({.menu = Menu::Help},
-               {{.id = "help.manual",
-                 .text = HelpText::tr("Manual"),
-                 .tip = HelpText::tr("Opens the pages of the manual"),
-                 .icon = "info",
-                 .run = [manual] { manual->open("index.md"); }},
-                {.id = "help.keys",
-                 .text = HelpText::tr("Keys and mouse"),
-                 .tip = HelpText::tr("Lists every key and mouse gesture"),
-                 .icon = "help",
-                 .keys = {Qt::Key_F1, Qt::Key_Question},
-                 .run = [&commands, &window] { show_shortcuts(commands, window); },
-                 .bar = BarSection::Help},
-                {.id = "help.palette",
-                 .text = HelpText::tr("Find a command…"),
-                 .tip = HelpText::tr(
-                     "Finds commands, methods, open and recent light fields by words of their "
-                     "names and descriptions"),
-                 .keys = {HelpText::tr("Ctrl+Shift+P")},
-                 .run = [palette] { palette->popUp(); }},
-                {.id = "help.about",
-                 .text = HelpText::tr("About Episcope"),
-                 .tip = HelpText::tr("Shows version and license"),
-                 .icon = "info",
-                 .run = [&window] { show_about(window); }}});
-}
-
-// The list of open light fields, projects, autosave and recovery.
-void add_project(const Workbench& bench) {
-  auto* autosave = new Autosave(bench);
-  auto* project = new ProjectController(bench, *autosave);
-  new ProjectGuard(bench, *project);
-  new SessionRecovery(bench, *autosave);
-  new SceneChooser(bench);
-  new WindowTitle(bench, *autosave, *project);
 }
 
 // The Check tab and its commands.
@@ -264,7 +124,7 @@ void add_reviewing(const Workbench& bench) {
                           "Shows where labels are in doubt, their islands and holes"),
                       .widget = panel});
   new LabelReviewController(bench, panel);
-  new StripController(bench, panel);
+  add_label_strip(bench, panel);
 }
 
 // Segmenting from scribbles, live or all views, and showing the result.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/main_window.h"
 
-#include "app/gui/features.h"
 #include "app/gui/files/file_controller.h"
 #include "app/gui/scene/document_controller.h"
 #include "app/gui/scene/overlay.h"
@@ -9,6 +8,7 @@
 #include "app/gui/scene/scene_switcher.h"
 #include "app/gui/scene/viewer_area.h"
 #include "app/gui/shell/commands.h"
+#include "app/gui/shell/features.h"
 #include "app/gui/shell/frame.h"
 #include "app/gui/shell/jobs.h"
 #include "app/gui/shell/panes.h"

@@ -147,8 +147,8 @@ void Session::set_foreign_file(int id, const std::filesystem::path& file) {
   }
 }
 
-void Session::mark_saved(int id) {
-  if (EstimateEntry* entry = entry_of_any_scene(id)) entry->is_saved = true;
+void Session::mark_saved(int id, bool is_saved) {
+  if (EstimateEntry* entry = entry_of_any_scene(id)) entry->is_saved = is_saved;
 }
 
 void Session::mark_new(int id) {

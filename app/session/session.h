@@ -95,7 +95,7 @@ class Session {
   /// Notes the file of an estimate that belongs to another light field.
   void set_foreign_file(int id, const std::filesystem::path& file);
   /// Notes that a file of the user's holds an estimate of any open scene.
-  void mark_saved(int id);
+  void mark_saved(int id, bool is_saved = true);
   /// Marks a result of the scene in front that came unseen, until `see`.
   void mark_new(int id);
   /// Notes that a result of the scene in front was looked at.

@@ -3686,6 +3686,18 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
 <context>
     <name>episcope::ImportLabelsDialog</name>
     <message>
+        <source>“0 is a label”</source>
+        <translation>„0 ist ein Label“</translation>
+    </message>
+    <message>
+        <source>0 is a label</source>
+        <translation>0 ist ein Label</translation>
+    </message>
+    <message>
+        <source>Raises all ids by one, so that 0 means none</source>
+        <translation>Erhöht alle Nummern um eins, sodass 0 „kein Label“ heißt</translation>
+    </message>
+    <message>
         <source>Import labels</source>
         <translation>Labels importieren</translation>
     </message>
@@ -7177,6 +7189,10 @@ s</translation>
 </context>
 <context>
     <name>episcope::Schema</name>
+    <message>
+        <source>label %1</source>
+        <translation>Label %1</translation>
+    </message>
     <message>
         <source>Seed</source>
         <translation>Startwert</translation>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/controls/parameter_form.h"
 
+#include "widgets/controls/layout.h"
 #include "widgets/controls/parameter_help.h"
 #include "widgets/controls/text.h"
 #include "widgets/controls/theme.h"

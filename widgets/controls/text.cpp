@@ -144,6 +144,11 @@ QString finding_words(const std::string& sentence) {
   return other_words(sentence);
 }
 
+QString label_name(const LabelInfo& label) {
+  const bool has_name = label.name != default_label(label.id).name;
+  return has_name ? QString::fromStdString(label.name) : SchemaText::tr("label %1").arg(label.id);
+}
+
 QString finding_brief(const std::string& sentence) {
   const auto finding = finding_of(sentence);
   if (!finding) return {};

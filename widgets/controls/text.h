@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/core/parameter.h"
+#include "engine/core/scene.h"
 #include "engine/render/quantity.h"
 
 #include <QString>
@@ -37,6 +38,9 @@ inline constexpr QChar kMinus(0x2212);
 /// A note or warning of the engine in the language of the window; a sentence that is not among
 /// `kFindingTexts` is looked up as `schema_text`. With true minus signs.
 [[nodiscard]] QString finding_words(const std::string& sentence);
+
+/// Name of a label; "label 3", translated, if it has none of its own (default_label).
+[[nodiscard]] QString label_name(const LabelInfo& label);
 
 /// The same in one short line, such as "Using the inner 10×10 of 14×14 views"; empty if there is
 /// none.

@@ -2,6 +2,7 @@
 #include "widgets/panels/label_palette.h"
 
 #include "widgets/controls/layout.h"
+#include "widgets/controls/text.h"
 #include "widgets/controls/theme.h"
 #include "widgets/controls/tool_button.h"
 
@@ -92,7 +93,7 @@ void LabelPalette::setLabels(const std::vector<LabelInfo>& labels) {
   tree_->clear();
   for (const LabelInfo& label : labels) {
     auto* item = new QTreeWidgetItem(tree_);
-    const QString name = QString::fromStdString(label.name);
+    const QString name = label_name(label);
     item->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsEditable |
                    Qt::ItemIsDragEnabled);
     item->setData(kColor, Qt::UserRole, label.id);

@@ -2,6 +2,7 @@
 #include "widgets/panels/label_review_panel.h"
 
 #include "widgets/controls/layout.h"
+#include "widgets/controls/text.h"
 #include "widgets/controls/theme.h"
 #include "widgets/controls/tool_button.h"
 
@@ -25,10 +26,6 @@ constexpr int kWidestName = 140;
 
 // Columns with numbers in the list of labels.
 enum { kPixelColumn = 1, kShareColumn, kMeanColumn, kMinColumn, kMaxColumn };
-
-QString name_of(const LabelInfo& label) {
-  return QString::fromStdString(label.name);
-}
 
 QString count_text(std::int64_t count) {
   return QLocale::c().toString(static_cast<qlonglong>(count));
@@ -117,8 +114,8 @@ void LabelReviewPanel::setNote(const QString& sentence) {
 void LabelReviewPanel::setDoubts(const std::vector<Doubt>& doubts) {
   doubts_->clear();
   for (const Doubt& doubt : doubts) {
-    auto* item =
-        add_row(doubts_, {name_of(doubt.label), name_of(doubt.rival), count_text(doubt.pixels)}, 2);
+    auto* item = add_row(
+        doubts_, {label_name(doubt.label), label_name(doubt.rival), count_text(doubt.pixels)}, 2);
     item->setIcon(0, swatch(doubt.label.color, palette()));
     item->setIcon(1, swatch(doubt.rival.color, palette()));
   }
@@ -133,8 +130,8 @@ void LabelReviewPanel::setRows(const std::vector<Row>& rows, int current_label) 
   labels_->clear();
   for (const Row& row : rows) {
     auto* item = add_row(labels_,
-                         {name_of(row.label), count_text(row.pixels), row.share, row.mean, row.min,
-                          row.max, count_text(row.islands), count_text(row.holes)},
+                         {label_name(row.label), count_text(row.pixels), row.share, row.mean,
+                          row.min, row.max, count_text(row.islands), count_text(row.holes)},
                          1);
     item->setIcon(0, swatch(row.label.color, palette()));
     item->setData(0, Qt::UserRole, row.label.id);
@@ -175,7 +172,8 @@ void LabelReviewPanel::setPieces(const QString& title, const std::vector<Piece>&
   pieces_title_->setText(title);
   pieces_->clear();
   for (const Piece& piece : pieces) {
-    auto* item = add_row(pieces_, {piece.kind, name_of(piece.label), count_text(piece.pixels)}, 2);
+    auto* item =
+        add_row(pieces_, {piece.kind, label_name(piece.label), count_text(piece.pixels)}, 2);
     item->setIcon(1, swatch(piece.label.color, palette()));
   }
 }

@@ -8,6 +8,7 @@
 #include "app/gui/shell/jobs.h"
 #include "app/gui/shell/panes.h"
 #include "widgets/canvas/view_canvas.h"
+#include "widgets/controls/text.h"
 #include "widgets/panels/brush_panel.h"
 
 #include <QAction>
@@ -251,7 +252,7 @@ bool AnnotateController::requireLabel() {
   LabelMarks marks = session_.place().label_marks;
   if (marks.locked.contains(label->id)) {
     bench_.messages.hint(tr("“%1” is locked: unlock it to paint it, or choose another label.")
-                             .arg(QString::fromStdString(label->name)));
+                             .arg(label_name(*label)));
     return false;
   }
   if (marks.hidden.erase(label->id) > 0) session_.set_label_marks(marks);

@@ -7,6 +7,7 @@
 #include "app/gui/scene/scene_opener.h"
 #include "app/gui/shell/commands.h"
 #include "app/gui/shell/dialogs.h"
+#include "app/gui/shell/features.h"
 #include "app/gui/shell/frame.h"
 #include "app/session/picture.h"
 #include "app/session/segmentation.h"
@@ -382,135 +383,155 @@ struct Found {
 
 }  // namespace
 
-RecoveryController::RecoveryController(const Workbench& bench)
-    : QObject(&bench.owner),
-      bench_(bench),
-      session_(bench.session),
-      document_(bench.document),
-      bar_(named("recoveryBar", new MessageBar(&bench.frame))),
-      job_(this) {
-  bench.frame.addFloating(bar_);
-  connect(&bench.frame, &Frame::settled, this, &RecoveryController::look);
-  connect(&document_, &DocumentController::replaced, this, [this] {
-    if (!awaited_ || !isOpen(awaited_->owner)) return;
-    read(*std::exchange(awaited_, std::nullopt));
-  });
-}
+/// Offers the journals of crashed sessions one after the other, in a bar that does not block.
+class RecoveryController : public QObject {
+  Q_OBJECT
 
-bool RecoveryController::isOpen(const JournalOwner& owner) const {
-  return session_.scene() && session_.input() == owner.source &&
-         session_.scene()->convention.focus_px == owner.focus_px;
-}
+ public:
+  explicit RecoveryController(const Workbench& bench)
+      : QObject(&bench.owner),
+        bench_(bench),
+        session_(bench.session),
+        document_(bench.document),
+        bar_(named("recoveryBar", new MessageBar(&bench.frame))),
+        job_(this) {
+    bench.frame.addFloating(bar_);
+    connect(&bench.frame, &Frame::settled, this, &RecoveryController::look);
+    connect(&document_, &DocumentController::replaced, this, [this] {
+      if (!awaited_ || !isOpen(awaited_->owner)) return;
+      read(*std::exchange(awaited_, std::nullopt));
+    });
+  }
 
-void RecoveryController::look() {
-  using Journals = std::vector<RecoverableJournal>;
-  job_.start<Journals>(
-      [folder = document_.journalFolder()](const Progress&) {
-        return folder.empty() ? Journals() : recoverable_journals(folder);
-      },
-      [this](Journals journals) {
-        left_ = std::move(journals);
-        std::ranges::reverse(left_);
-        offerNext();
-      });
-}
+  /// Looks for journals in the background and offers the latest.
+  void look() {
+    using Journals = std::vector<RecoverableJournal>;
+    job_.start<Journals>(
+        [folder = document_.journalFolder()](const Progress&) {
+          return folder.empty() ? Journals() : recoverable_journals(folder);
+        },
+        [this](Journals journals) {
+          left_ = std::move(journals);
+          std::ranges::reverse(left_);
+          offerNext();
+        });
+  }
 
-void RecoveryController::offerNext() {
-  if (left_.empty()) return;
-  const RecoverableJournal journal = left_.back();
-  left_.pop_back();
-  offer(journal);
-}
+ private:
+  [[nodiscard]] bool isOpen(const JournalOwner& owner) const {
+    return session_.scene() && session_.input() == owner.source &&
+           session_.scene()->convention.focus_px == owner.focus_px;
+  }
 
-void RecoveryController::offer(const RecoverableJournal& journal) {
-  bar_->showMessage(
-      Severity::Warning,
-      tr("Episcope ended unexpectedly while “%1” was being annotated (%2). Strokes to "
-         "recover: %3.")
-          .arg(name_of(journal), short_text(journal.last_change))
-          .arg(journal.strokes),
-      {tr("Recover"), [this, journal] { recover(journal); }},
-      {tr("Discard…"), [this, journal] { discard(journal); }});
-}
+  void offerNext() {
+    if (left_.empty()) return;
+    const RecoverableJournal journal = left_.back();
+    left_.pop_back();
+    offer(journal);
+  }
 
-void RecoveryController::discard(const RecoverableJournal& journal) {
-  confirm_discarding(
-      &bench_.window,
-      tr("This deletes the scribbles on “%1” that were not saved.").arg(name_of(journal)),
-      [this, journal] {
-        discard_journal(journal.path);
-        offerNext();
-      },
-      [this, journal] { offer(journal); });
-}
+  void offer(const RecoverableJournal& journal) {
+    bar_->showMessage(
+        Severity::Warning,
+        tr("Episcope ended unexpectedly while “%1” was being annotated (%2). Strokes to "
+           "recover: %3.")
+            .arg(name_of(journal), short_text(journal.last_change))
+            .arg(journal.strokes),
+        {tr("Recover"), [this, journal] { recover(journal); }},
+        {tr("Discard…"), [this, journal] { discard(journal); }});
+  }
 
-void RecoveryController::recover(const RecoverableJournal& journal) {
-  const auto go_on = [this, journal] {
-    if (document_.document() && isOpen(journal.owner)) {
-      read(journal);
+  void recover(const RecoverableJournal& journal) {
+    const auto go_on = [this, journal] {
+      if (document_.document() && isOpen(journal.owner)) {
+        read(journal);
+        return;
+      }
+      awaited_ = journal;
+      open(journal.owner);
+    };
+    // What was painted meanwhile on the same light field is replaced.
+    isOpen(journal.owner) ? bench_.guards.leave(Leaving::Reading, go_on) : go_on();
+  }
+
+  void open(const JournalOwner& owner) {
+    std::function<void()> then;
+    if (owner.focus_px != 0) {
+      then = [this, focus_px = owner.focus_px] { bench_.opener.reopenAt(focus_px, nullptr); };
+    }
+    bench_.opener.open(QString::fromStdString(owner.source), std::move(then));
+  }
+
+  void discard(const RecoverableJournal& journal) {
+    confirm_discarding(
+        &bench_.window,
+        tr("This deletes the scribbles on “%1” that were not saved.").arg(name_of(journal)),
+        [this, journal] {
+          discard_journal(journal.path);
+          offerNext();
+        },
+        [this, journal] { offer(journal); });
+  }
+
+  void read(const RecoverableJournal& journal) {
+    job_.start<std::shared_ptr<Found>>(
+        [journal, light_field = session_.light_field()](const Progress&) {
+          auto found = std::make_shared<Found>();
+          try {
+            found->annotation = std::make_unique<RecoveredAnnotation>(read_journal(journal.path));
+            found->sample_hash = light_field->sample_hash();
+          } catch (const IoError& error) {
+            found->failure = QString::fromUtf8(error.what());
+          }
+          return found;
+        },
+        [this, journal](const std::shared_ptr<Found>& found) {
+          if (!found->failure.isEmpty()) {
+            refuse(found->failure);
+          } else {
+            takeOver(journal, std::move(*found->annotation), found->sample_hash);
+          }
+        });
+  }
+
+  void takeOver(const RecoverableJournal& journal, RecoveredAnnotation found,
+                std::uint64_t sample_hash) {
+    const LightFieldPtr light_field = session_.light_field();
+    if (!light_field || !isOpen(journal.owner)) return;
+    const ScribbleLayer& layer = found.document.scribbles();
+    const bool fits = layer.grid() == light_field->grid() &&
+                      layer.height() == light_field->height() &&
+                      layer.width() == light_field->width();
+    if (!fits || (found.owner.sample_hash != 0 && found.owner.sample_hash != sample_hash)) {
+      refuse(tr("“%1” is no longer the light field that was annotated. Your work is kept in %2.")
+                 .arg(name_of(journal), QString::fromStdString(journal.path.string())));
       return;
     }
-    awaited_ = journal;
-    open(journal.owner);
-  };
-  // What was painted meanwhile on the same light field is replaced.
-  isOpen(journal.owner) ? bench_.guards.leave(Leaving::Reading, go_on) : go_on();
-}
-
-void RecoveryController::open(const JournalOwner& owner) {
-  std::function<void()> then;
-  if (owner.focus_px != 0) {
-    then = [this, focus_px = owner.focus_px] { bench_.opener.reopenAt(focus_px, nullptr); };
+    const bool is_kept =
+        document_.replace(std::move(found.document), document_.isWhole(), found.owner.file);
+    if (is_kept) discard_journal(journal.path);  // else it is the only one
+    bench_.frame.showTab("annotate");
+    bench_.messages.success(tr("Recovered the annotation of “%1”.").arg(name_of(journal)));
+    offerNext();
   }
-  bench_.opener.open(QString::fromStdString(owner.source), std::move(then));
-}
 
-void RecoveryController::read(const RecoverableJournal& journal) {
-  job_.start<std::shared_ptr<Found>>(
-      [journal, light_field = session_.light_field()](const Progress&) {
-        auto found = std::make_shared<Found>();
-        try {
-          found->annotation = std::make_unique<RecoveredAnnotation>(read_journal(journal.path));
-          found->sample_hash = light_field->sample_hash();
-        } catch (const IoError& error) {
-          found->failure = QString::fromUtf8(error.what());
-        }
-        return found;
-      },
-      [this, journal](const std::shared_ptr<Found>& found) {
-        if (!found->failure.isEmpty()) {
-          refuse(found->failure);
-        } else {
-          takeOver(journal, std::move(*found->annotation), found->sample_hash);
-        }
-      });
-}
+  void refuse(const QString& sentence) { bar_->showMessage(Severity::Error, sentence); }
 
-void RecoveryController::takeOver(const RecoverableJournal& journal, RecoveredAnnotation found,
-                                  std::uint64_t sample_hash) {
-  const LightFieldPtr light_field = session_.light_field();
-  if (!light_field || !isOpen(journal.owner)) return;
-  const ScribbleLayer& layer = found.document.scribbles();
-  const bool fits = layer.grid() == light_field->grid() &&
-                    layer.height() == light_field->height() &&
-                    layer.width() == light_field->width();
-  if (!fits || (found.owner.sample_hash != 0 && found.owner.sample_hash != sample_hash)) {
-    refuse(tr("“%1” is no longer the light field that was annotated. Your work is kept in %2.")
-               .arg(name_of(journal), QString::fromStdString(journal.path.string())));
-    return;
-  }
-  const bool is_kept =
-      document_.replace(std::move(found.document), document_.isWhole(), found.owner.file);
-  if (is_kept) discard_journal(journal.path);  // else it is the only one
-  bench_.frame.showTab("annotate");
-  bench_.messages.success(tr("Recovered the annotation of “%1”.").arg(name_of(journal)));
-  offerNext();
-}
+  Workbench bench_;
+  Session& session_;
+  DocumentController& document_;
+  MessageBar* bar_;
+  std::vector<RecoverableJournal> left_;       // the one to be offered next comes last
+  std::optional<RecoverableJournal> awaited_;  // its light field is being opened
+  LatestJob job_;
+};
 
-void RecoveryController::refuse(const QString& sentence) {
-  bar_->showMessage(Severity::Error, sentence);
+void add_recovery(const Workbench& bench) {
+  new RecoveryController(bench);
 }
 
 }  // namespace episcope
 
 #include "moc_annotation_files.cpp"
+
+#include "annotation_files.moc"

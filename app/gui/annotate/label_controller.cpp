@@ -6,12 +6,14 @@
 #include "app/gui/scene/viewer_area.h"
 #include "app/gui/shell/commands.h"
 #include "app/gui/shell/dialogs.h"
+#include "app/gui/shell/features.h"
 #include "app/gui/shell/frame.h"
 #include "widgets/controls/layout.h"
 #include "widgets/controls/text.h"
 #include "widgets/panels/label_palette.h"
 
 #include <QColorDialog>
+#include <QCoreApplication>
 #include <QInputDialog>
 #include <QLocale>
 #include <QPushButton>
@@ -107,7 +109,7 @@ void LabelController::addChoiceCommands() {
          .live_text =
              [this, id] {
                const LabelInfo* label = at(id);
-               return label ? QString::fromStdString(label->name) : tr("Label %1").arg(id);
+               return label ? label_name(*label) : tr("Label %1").arg(id);
              }});
   }
   bench_.commands.add({.menu = Menu::Labels, .section = label_section::kEdit, .enabled = has_label},
@@ -244,13 +246,13 @@ void LabelController::merge(int from) {
   std::vector<int> ids;
   for (const LabelInfo& each : document_.labels().labels()) {
     if (each.id == label->id) continue;
-    names << QString("%1 · %2").arg(each.id).arg(QString::fromStdString(each.name));
+    names << QString("%1 · %2").arg(each.id).arg(label_name(each));
     ids.push_back(each.id);
   }
   auto* dialog = named("merge_labels", new QInputDialog(&bench_.window));
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   dialog->setWindowTitle(tr("Merge labels"));
-  dialog->setLabelText(tr("Merge “%1” into:").arg(QString::fromStdString(label->name)));
+  dialog->setLabelText(tr("Merge “%1” into:").arg(label_name(*label)));
   dialog->setComboBoxItems(names);
   dialog->setComboBoxEditable(false);
   connect(dialog, &QInputDialog::textValueSelected, this,
@@ -280,9 +282,8 @@ void LabelController::askForNumber(int id) {
   auto* dialog = named("renumber_label", new QInputDialog(&bench_.window));
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   dialog->setWindowTitle(tr("Change the number of a label"));
-  dialog->setLabelText(tr("Number of “%1”, from 1 to %2:")
-                           .arg(QString::fromStdString(label->name))
-                           .arg(LabelSet::kMaxId));
+  dialog->setLabelText(
+      tr("Number of “%1”, from 1 to %2:").arg(label_name(*label)).arg(LabelSet::kMaxId));
   dialog->setInputMode(QInputDialog::IntInput);
   dialog->setIntRange(1, LabelSet::kMaxId);
   dialog->setIntValue(id);
@@ -315,7 +316,7 @@ void LabelController::rename() {
 
 bool LabelController::refuseLocked(const LabelInfo& label, const QString& hint) {
   if (!bench_.session.place().label_marks.locked.contains(label.id)) return false;
-  bench_.messages.hint(hint.arg(QString::fromStdString(label.name)));
+  bench_.messages.hint(hint.arg(label_name(label)));
   return true;
 }
 
@@ -338,7 +339,7 @@ void LabelController::remove(int id) {
       &bench_.window, {.name = "remove_label",
                        .title = tr("Remove a label"),
                        .text = tr("Remove “%1” and everything painted with it, on all views?")
-                                   .arg(QString::fromStdString(label->name))});
+                                   .arg(label_name(*label))});
   box->addButton(tr("Remove"), QMessageBox::AcceptRole)->setObjectName("remove_label.remove");
   connect(box, &QDialog::accepted, this, [this, id] { removeNow(id); });
   box->open();
@@ -354,7 +355,7 @@ void LabelController::recolor(int id) {
   auto* dialog =
       new QColorDialog(QColor(label->color[0], label->color[1], label->color[2]), &bench_.window);
   dialog->setObjectName("label_color");
-  dialog->setWindowTitle(tr("Color of “%1”").arg(QString::fromStdString(label->name)));
+  dialog->setWindowTitle(tr("Color of “%1”").arg(label_name(*label)));
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   connect(dialog, &QColorDialog::colorSelected, this, [this, id](const QColor& color) {
     const Rgb rgb{static_cast<std::uint8_t>(color.red()), static_cast<std::uint8_t>(color.green()),
@@ -366,6 +367,10 @@ void LabelController::recolor(int id) {
 
 namespace {
 
+struct LabelLookControllerText {
+  Q_DECLARE_TR_FUNCTIONS(episcope::LabelLookController)
+};
+
 constexpr const char* kDrawingKey = "annotate/drawing";
 constexpr int kDrawingCount = 3;
 
@@ -374,11 +379,11 @@ using render::LabelDrawing;
 QString name_of(LabelDrawing drawing) {
   switch (drawing) {
     case LabelDrawing::Fill:
-      return LabelLookController::tr("areas");
+      return LabelLookControllerText::tr("areas");
     case LabelDrawing::Contours:
-      return LabelLookController::tr("contours");
+      return LabelLookControllerText::tr("contours");
     case LabelDrawing::Both:
-      return LabelLookController::tr("areas and contours");
+      return LabelLookControllerText::tr("areas and contours");
   }
   return {};
 }
@@ -400,11 +405,11 @@ std::set<std::int32_t> painted_labels(const Edit& edit) {
 }
 
 QString tip_of(const LabelAmount& amount, double share) {
-  QString tip = LabelLookController::tr("%1 px painted on this view, %2 %")
+  QString tip = LabelLookControllerText::tr("%1 px painted on this view, %2 %")
                     .arg(QLocale::c().toString(static_cast<qlonglong>(amount.pixels)))
                     .arg(100 * share, 0, 'f', 2);
   if (amount.disparity) {
-    tip += '\n' + LabelLookController::tr("Disparity %1 ± %2 px, from %3 to %4 px")
+    tip += '\n' + LabelLookControllerText::tr("Disparity %1 ± %2 px, from %3 to %4 px")
                       .arg(number_text(amount.disparity->mean),
                            number_text(amount.disparity->deviation),
                            number_text(amount.disparity->min), number_text(amount.disparity->max));
@@ -414,154 +419,176 @@ QString tip_of(const LabelAmount& amount, double share) {
 
 }  // namespace
 
-LabelLookController::LabelLookController(const Workbench& bench, LabelPalette* palette)
-    : QObject(&bench.owner), bench_(bench), palette_(palette), count_job_(this) {
-  const int kept = QSettings().value(kDrawingKey).toInt();
-  if (kept >= 0 && kept < kDrawingCount) {
-    bench_.session.set_label_drawing(static_cast<LabelDrawing>(kept));
+/// Visibility, locks and drawing style of labels, and how much of the view each label covers.
+class LabelLookController : public QObject {
+  Q_OBJECT
+
+ public:
+  LabelLookController(const Workbench& bench, LabelPalette* palette)
+      : QObject(&bench.owner), bench_(bench), palette_(palette), count_job_(this) {
+    const int kept = QSettings().value(kDrawingKey).toInt();
+    if (kept >= 0 && kept < kDrawingCount) {
+      bench_.session.set_label_drawing(static_cast<LabelDrawing>(kept));
+    }
+    addCommands();
+    connect(palette_, &LabelPalette::hiddenRequested, this,
+            [this](int id, bool hides) { mark(&LabelMarks::hidden, id, hides); });
+    connect(palette_, &LabelPalette::onlyRequested, this, &LabelLookController::showOnly);
+    connect(palette_, &LabelPalette::lockedRequested, this,
+            [this](int id, bool locks) { mark(&LabelMarks::locked, id, locks); });
+    connect(&bench_.document, &DocumentController::replaced, this, &LabelLookController::count);
+    connect(&bench_.document, &DocumentController::changed, this,
+            [this](const DocumentChange& change) {
+              if (change.has_new_labels) followLabels();
+              count();
+            });
+    connect(&bench_.document, &DocumentController::steppedBack, this,
+            [this](const DocumentChange&, const Edit& edit, bool is_undo) {
+              tellLocked(edit, is_undo);
+            });
+    bench_.session.on_changed([this](Parts parts) { update(parts); });
   }
-  addCommands();
-  connect(palette_, &LabelPalette::hiddenRequested, this,
-          [this](int id, bool hides) { mark(&LabelMarks::hidden, id, hides); });
-  connect(palette_, &LabelPalette::onlyRequested, this, &LabelLookController::showOnly);
-  connect(palette_, &LabelPalette::lockedRequested, this,
-          [this](int id, bool locks) { mark(&LabelMarks::locked, id, locks); });
-  connect(&bench_.document, &DocumentController::replaced, this, &LabelLookController::count);
-  connect(&bench_.document, &DocumentController::changed, this,
-          [this](const DocumentChange& change) {
-            if (change.has_new_labels) followLabels();
-            count();
-          });
-  connect(
-      &bench_.document, &DocumentController::steppedBack, this,
-      [this](const DocumentChange&, const Edit& edit, bool is_undo) { tellLocked(edit, is_undo); });
-  bench_.session.on_changed([this](Parts parts) { update(parts); });
-}
 
-void LabelLookController::addCommands() {
-  const auto current = [this] { return bench_.labels.current(); };
-  const auto has_label = [current] { return current() != 0; };
-  const auto marks = [this]() -> const LabelMarks& { return bench_.session.place().label_marks; };
-  bench_.commands.add(
-      {.menu = Menu::Labels, .section = label_section::kLook},
-      {{.id = "annotate.hide_label",
-        .text = tr("Hide label"),
-        .tip = tr("Neither shows the current label nor paints over it"),
-        .icon = "eye_off",
-        .keys = {Qt::Key_V},
-        .run =
-            [=, this] {
-              mark(&LabelMarks::hidden, current(), !marks().hidden.contains(current()));
-            },
-        .enabled = has_label,
-        .checked = [=] { return marks().hidden.contains(current()); }},
-       {.id = "annotate.only_label",
-        .text = tr("Show only this label"),
-        .tip = tr("Hides all other labels; a second time shows them again"),
-        .run = [this, current] { showOnly(current()); },
-        .enabled = has_label},
-       {.id = "annotate.lock_label",
-        .text = tr("Lock label"),
-        .tip = tr("The current label is neither painted nor painted over"),
-        .icon = "lock",
-        .keys = {tr("Shift+V")},
-        .run =
-            [=, this] {
-              mark(&LabelMarks::locked, current(), !marks().locked.contains(current()));
-            },
-        .enabled = has_label,
-        .checked = [=] { return marks().locked.contains(current()); }},
-       {.id = "annotate.drawing",
-        .text = tr("Draw labels as areas, contours or both"),
-        .tip = tr("Draws strokes and segments as areas, as contours, or as faint areas with "
-                  "contours"),
-        .keys = {tr("Shift+C")},
-        .run = [this] { setDrawing(after(bench_.session.label_style().drawing)); },
-        .enabled = [this] { return bench_.session.scene() != nullptr; }}});
-}
-
-void LabelLookController::update(Parts parts) {
-  if (parts.has(Part::LabelLook)) {
-    palette_->setHidden(bench_.session.place().label_marks.hidden);
-    palette_->setLocked(bench_.session.place().label_marks.locked);
-    bench_.commands.refresh();
+ private:
+  void addCommands() {
+    const auto current = [this] { return bench_.labels.current(); };
+    const auto has_label = [current] { return current() != 0; };
+    const auto marks = [this]() -> const LabelMarks& { return bench_.session.place().label_marks; };
+    bench_.commands.add(
+        {.menu = Menu::Labels, .section = label_section::kLook},
+        {{.id = "annotate.hide_label",
+          .text = tr("Hide label"),
+          .tip = tr("Neither shows the current label nor paints over it"),
+          .icon = "eye_off",
+          .keys = {Qt::Key_V},
+          .run =
+              [=, this] {
+                mark(&LabelMarks::hidden, current(), !marks().hidden.contains(current()));
+              },
+          .enabled = has_label,
+          .checked = [=] { return marks().hidden.contains(current()); }},
+         {.id = "annotate.only_label",
+          .text = tr("Show only this label"),
+          .tip = tr("Hides all other labels; a second time shows them again"),
+          .run = [this, current] { showOnly(current()); },
+          .enabled = has_label},
+         {.id = "annotate.lock_label",
+          .text = tr("Lock label"),
+          .tip = tr("The current label is neither painted nor painted over"),
+          .icon = "lock",
+          .keys = {tr("Shift+V")},
+          .run =
+              [=, this] {
+                mark(&LabelMarks::locked, current(), !marks().locked.contains(current()));
+              },
+          .enabled = has_label,
+          .checked = [=] { return marks().locked.contains(current()); }},
+         {.id = "annotate.drawing",
+          .text = tr("Draw labels as areas, contours or both"),
+          .tip = tr("Draws strokes and segments as areas, as contours, or as faint areas with "
+                    "contours"),
+          .keys = {tr("Shift+C")},
+          .run = [this] { setDrawing(after(bench_.session.label_style().drawing)); },
+          .enabled = [this] { return bench_.session.scene() != nullptr; }}});
   }
-  if (parts.has_any(Part::View | Part::Shown | Part::Estimates)) count();
-}
 
-void LabelLookController::mark(std::set<std::int32_t> LabelMarks::*set, int id, bool is_marked) {
-  LabelMarks marks = bench_.session.place().label_marks;
-  is_marked ? void((marks.*set).insert(id)) : void((marks.*set).erase(id));
-  bench_.session.set_label_marks(marks);
-}
-
-void LabelLookController::showOnly(int id) {
-  LabelMarks marks = bench_.session.place().label_marks;
-  std::set<std::int32_t> others;
-  for (const LabelInfo& label : bench_.document.labels().labels()) {
-    if (label.id != id) others.insert(label.id);
+  void update(Parts parts) {
+    if (parts.has(Part::LabelLook)) {
+      palette_->setHidden(bench_.session.place().label_marks.hidden);
+      palette_->setLocked(bench_.session.place().label_marks.locked);
+      bench_.commands.refresh();
+    }
+    if (parts.has_any(Part::View | Part::Shown | Part::Estimates)) count();
   }
-  marks.hidden = marks.hidden == others ? std::set<std::int32_t>{} : others;
-  bench_.session.set_label_marks(marks);
-}
 
-// Locks keep the brush away; undo goes back whatever was locked since, as in painting programs.
-void LabelLookController::tellLocked(const Edit& edit, bool is_undo) {
-  const std::set<std::int32_t> touched = painted_labels(edit);
-  QStringList names;
-  for (const LabelInfo& label : bench_.document.labels().labels()) {
-    const bool is_locked = bench_.session.place().label_marks.locked.contains(label.id);
-    if (is_locked && touched.contains(label.id)) names << QString::fromStdString(label.name);
+  void mark(std::set<std::int32_t> LabelMarks::*set, int id, bool is_marked) {
+    LabelMarks marks = bench_.session.place().label_marks;
+    is_marked ? void((marks.*set).insert(id)) : void((marks.*set).erase(id));
+    bench_.session.set_label_marks(marks);
   }
-  if (names.isEmpty()) return;
-  bench_.messages.hint((is_undo ? tr("Undo changed locked labels: %1. Redo restores them.")
-                                : tr("Redo changed locked labels: %1. Undo restores them."))
-                           .arg(names.join(", ")));
-}
 
-void LabelLookController::setDrawing(LabelDrawing drawing) {
-  QSettings().setValue(kDrawingKey, static_cast<int>(drawing));
-  bench_.session.set_label_drawing(drawing);
-  bench_.messages.hint(tr("Labels are drawn as %1.").arg(name_of(drawing)));
-}
-
-void LabelLookController::followLabels() {
-  LabelMarks marks = bench_.session.place().label_marks;
-  const auto is_gone = [this](std::int32_t id) { return !bench_.document.labels().contains(id); };
-  std::erase_if(marks.hidden, is_gone);
-  std::erase_if(marks.locked, is_gone);
-  bench_.session.set_label_marks(marks);
-}
-
-void LabelLookController::count() {
-  const AnnotationDocument* document = bench_.document.document();
-  const ViewIndex view = bench_.session.view();
-  const auto layer = document ? document->scribbles().view(view) : ImageView<const std::uint8_t>{};
-  if (layer.empty()) {
-    count_job_.drop();
-    palette_->setAmounts({});
-    return;
+  void showOnly(int id) {
+    LabelMarks marks = bench_.session.place().label_marks;
+    std::set<std::int32_t> others;
+    for (const LabelInfo& label : bench_.document.labels().labels()) {
+      if (label.id != id) others.insert(label.id);
+    }
+    marks.hidden = marks.hidden == others ? std::set<std::int32_t>{} : others;
+    bench_.session.set_label_marks(marks);
   }
-  auto painted = std::make_shared<Image<std::uint8_t>>(layer.height, layer.width);
-  std::copy_n(layer.data, layer.size(), painted->data());
-  count_job_.start<std::vector<LabelAmount>>(
-      [painted, view, field = bench_.session.known_disparity(view)](const Progress&) {
-        return label_amounts(painted->view(), field ? field->view(view) : DisparityView{});
-      },
-      [this, all = static_cast<double>(layer.size())](const std::vector<LabelAmount>& amounts) {
-        showAmounts(amounts, all);
-      });
-}
 
-void LabelLookController::showAmounts(const std::vector<LabelAmount>& amounts, double all) {
-  std::map<std::int32_t, LabelPalette::Amount> texts;
-  for (const LabelAmount& each : amounts) {
-    texts[each.id] = {QLocale::c().toString(static_cast<qlonglong>(each.pixels)),
-                      tip_of(each, static_cast<double>(each.pixels) / all)};
+  void setDrawing(LabelDrawing drawing) {
+    QSettings().setValue(kDrawingKey, static_cast<int>(drawing));
+    bench_.session.set_label_drawing(drawing);
+    bench_.messages.hint(tr("Labels are drawn as %1.").arg(name_of(drawing)));
   }
-  palette_->setAmounts(texts);
+
+  /// Tells the user if undo or redo changed locked labels.
+  // Locks keep the brush away; undo goes back whatever was locked since, as in painting programs.
+  void tellLocked(const Edit& edit, bool is_undo) {
+    const std::set<std::int32_t> touched = painted_labels(edit);
+    QStringList names;
+    for (const LabelInfo& label : bench_.document.labels().labels()) {
+      const bool is_locked = bench_.session.place().label_marks.locked.contains(label.id);
+      if (is_locked && touched.contains(label.id)) names << label_name(label);
+    }
+    if (names.isEmpty()) return;
+    bench_.messages.hint((is_undo ? tr("Undo changed locked labels: %1. Redo restores them.")
+                                  : tr("Redo changed locked labels: %1. Undo restores them."))
+                             .arg(names.join(", ")));
+  }
+
+  /// Forgets hidden and locked marks of removed labels.
+  void followLabels() {
+    LabelMarks marks = bench_.session.place().label_marks;
+    const auto is_gone = [this](std::int32_t id) { return !bench_.document.labels().contains(id); };
+    std::erase_if(marks.hidden, is_gone);
+    std::erase_if(marks.locked, is_gone);
+    bench_.session.set_label_marks(marks);
+  }
+
+  void count() {
+    const AnnotationDocument* document = bench_.document.document();
+    const ViewIndex view = bench_.session.view();
+    const auto layer =
+        document ? document->scribbles().view(view) : ImageView<const std::uint8_t>{};
+    if (layer.empty()) {
+      count_job_.drop();
+      palette_->setAmounts({});
+      return;
+    }
+    auto painted = std::make_shared<Image<std::uint8_t>>(layer.height, layer.width);
+    std::copy_n(layer.data, layer.size(), painted->data());
+    count_job_.start<std::vector<LabelAmount>>(
+        [painted, view, field = bench_.session.known_disparity(view)](const Progress&) {
+          return label_amounts(painted->view(), field ? field->view(view) : DisparityView{});
+        },
+        [this, all = static_cast<double>(layer.size())](const std::vector<LabelAmount>& amounts) {
+          showAmounts(amounts, all);
+        });
+  }
+
+  /// `all`: number of pixels of the view.
+  void showAmounts(const std::vector<LabelAmount>& amounts, double all) {
+    std::map<std::int32_t, LabelPalette::Amount> texts;
+    for (const LabelAmount& each : amounts) {
+      texts[each.id] = {QLocale::c().toString(static_cast<qlonglong>(each.pixels)),
+                        tip_of(each, static_cast<double>(each.pixels) / all)};
+    }
+    palette_->setAmounts(texts);
+  }
+
+  Workbench bench_;
+  LabelPalette* palette_;
+  LatestJob count_job_;
+};
+
+void add_label_look(const Workbench& bench, LabelPalette* palette) {
+  new LabelLookController(bench, palette);
 }
 
 }  // namespace episcope
 
 #include "moc_label_controller.cpp"
+
+#include "label_controller.moc"

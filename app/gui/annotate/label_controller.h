@@ -13,7 +13,6 @@
 
 namespace episcope {
 
-struct Edit;
 class LabelPalette;
 
 /// Lists the labels, and adds, renames, renumbers, moves, recolors, merges, removes and chooses
@@ -58,32 +57,6 @@ class LabelController : public QObject {
   DocumentController& document_;
   LabelChoice& labels_;
   LabelPalette* palette_;
-};
-
-/// Visibility, locks and drawing style of labels, and how much of the view each label covers.
-class LabelLookController : public QObject {
-  Q_OBJECT
-
- public:
-  LabelLookController(const Workbench& bench, LabelPalette* palette);
-
- private:
-  void addCommands();
-  void update(Parts parts);
-  void mark(std::set<std::int32_t> LabelMarks::*set, int id, bool is_marked);
-  void showOnly(int id);
-  void setDrawing(render::LabelDrawing drawing);
-  /// Tells the user if undo or redo changed locked labels.
-  void tellLocked(const Edit& edit, bool is_undo);
-  /// Forgets hidden and locked marks of removed labels.
-  void followLabels();
-  void count();
-  /// `all`: number of pixels of the view.
-  void showAmounts(const std::vector<LabelAmount>& amounts, double all);
-
-  Workbench bench_;
-  LabelPalette* palette_;
-  LatestJob count_job_;
 };
 
 }  // namespace episcope

@@ -16,6 +16,7 @@
 #include "engine/io/models/scribble_file.h"
 #include "widgets/controls/layout.h"
 #include "widgets/controls/picture.h"
+#include "widgets/controls/text.h"
 #include "widgets/panels/brush_panel.h"
 
 #include <QButtonGroup>
@@ -33,6 +34,7 @@
 #include <QPixmap>
 #include <QPushButton>
 #include <QRadioButton>
+#include <QScopedValueRollback>
 #include <QUrl>
 #include <QVBoxLayout>
 
@@ -120,6 +122,7 @@ class ImportLabelsDialog : public QDialog {
   /// Other ids are to count as unlabeled; nothing: those that usually do.
   void ignoredChanged(const std::optional<std::vector<std::int32_t>>& ids);
   void tableChosen(const QString& path);
+  void zeroChosen(bool is_label);
 
  private:
   /// Whether it holds ids, or nothing.
@@ -138,6 +141,11 @@ class ImportLabelsDialog : public QDialog {
   bool is_stale_ = false;  // and is not yet shown.
   bool is_accepted_ = false;
 };
+
+// Names the box of the dialog in the place of the option.
+QString note_words(const std::string& note) {
+  return finding_words(note).replace("--first-label 0", ImportLabelsDialog::tr("“0 is a label”"));
+}
 
 ImportLabelsDialog::ImportLabelsDialog(QWidget* parent, bool has_labels)
     : QDialog(parent),
@@ -158,6 +166,14 @@ ImportLabelsDialog::ImportLabelsDialog(QWidget* parent, bool has_labels)
   layout_->addWidget(notes_);
   auto* form = new QFormLayout;
   form->addRow(tr("Unlabeled"), ignored_);
+  auto* zero = named("importLabels.zero", new QCheckBox(tr("0 is a label"), this));
+  zero->setToolTip(tr("Raises all ids by one, so that 0 means none"));
+  connect(zero, &QCheckBox::toggled, this, [this](bool is_label) {
+    ++reading_;
+    is_stale_ = true;
+    emit zeroChosen(is_label);
+  });
+  form->addRow({}, zero);
   auto* table = named("importLabels.table", new QPushButton(tr("Table…"), this));
   table->setAutoDefault(false);
   table->setToolTip(tr("What the colors of pictures mean: lines r,g,b,id,name, or a labelmap.txt"));
@@ -240,15 +256,14 @@ void ImportLabelsDialog::showLabels(const LightField& field, ViewIndex view,
   QStringList texts;
   for (const auto& [id, count] : counts) {
     const auto known = std::ranges::find(scribbles.labels, id, &LabelInfo::id);
-    const QString name =
-        known == scribbles.labels.end() ? QString() : " " + QString::fromStdString(known->name);
+    const QString name = known == scribbles.labels.end() ? QString() : " " + label_name(*known);
     texts << QString("%1%2").arg(id).arg(name);
   }
   content_->setText(
       tr("%n view(s) with labels. View %1: %2", nullptr, static_cast<int>(scribbles.views.size()))
           .arg(QString::fromStdString(view_text(shown.view)), listed(texts)));
   QStringList notes;
-  for (const std::string& note : labels_->notes) notes << finding_words(note);
+  for (const std::string& note : labels_->notes) notes << note_words(note);
   notes_->setText(notes.join('\n'));
   notes_->setVisible(!notes.isEmpty());
 }
@@ -302,7 +317,9 @@ void LabelImporter::read() {
        known = document_.document()->labels().labels()](const Progress& progress) {
         std::vector<std::filesystem::path> places;
         for (const QString& file : files) places.push_back(path_of(file));
-        io::LabelReading reading{.known = {known.begin(), known.end()}, .ignored = asked.ignored};
+        io::LabelReading reading{.known = {known.begin(), known.end()},
+                                 .ignored = asked.ignored,
+                                 .zero_is_label = asked.zero_is_label};
         if (!asked.table.isEmpty()) reading.table = io::read_color_table(path_of(asked.table));
         auto labels = std::make_shared<io::ImportedLabels>(
             io::read_labels(places, *scene, reading, progress));
@@ -338,6 +355,10 @@ void LabelImporter::show(const QStringList& paths, std::shared_ptr<io::ImportedL
             asked_.ignored = ids;
             read();
           });
+  connect(dialog_, &ImportLabelsDialog::zeroChosen, this, [this](bool is_label) {
+    asked_.zero_is_label = is_label;
+    read();
+  });
   connect(dialog_, &ImportLabelsDialog::tableChosen, this, [this](const QString& path) {
     asked_.table = path;
     read();
@@ -368,7 +389,7 @@ void LabelImporter::use(const io::ImportedLabels& labels, LabelUse use, const QS
     return;
   }
   QStringList sentences{tr("Imported: %1").arg(name)};
-  for (const std::string& note : labels.notes) sentences << QString::fromStdString(note);
+  for (const std::string& note : labels.notes) sentences << note_words(note);
   bench_.messages.success(sentences.join("\n"));
 }
 
@@ -387,25 +408,37 @@ void LabelImporter::useAsSegmentation(const io::ImportedLabels& labels) {
   emit segmented(labeling);
 }
 
+// What the files hold is looked at in the background; others go to the window.
 bool LabelImporter::eventFilter(QObject* watched, QEvent* event) {
-  const bool is_drop = event->type() == QEvent::DragEnter || event->type() == QEvent::Drop;
-  if (!is_drop || !document_.document() || bench_.frame.shownTab() != "annotate") {
-    return QObject::eventFilter(watched, event);
-  }
+  const bool is_asked = event->type() == QEvent::Drop && !is_passing_on_ && document_.document() &&
+                        bench_.frame.shownTab() == "annotate";
+  if (!is_asked) return QObject::eventFilter(watched, event);
   auto* drop = static_cast<QDropEvent*>(event);
-  const LightField& field = *session_.light_field();
-  const io::FieldShape shape{field.grid(), field.height(), field.width()};
-  QStringList paths;
-  for (const QUrl& url : drop->mimeData()->urls()) {
-    if (!url.isLocalFile() || !io::holds_labels_only(path_of(url.toLocalFile()), &shape)) {
-      return false;
-    }
-    paths << url.toLocalFile();
-  }
-  if (paths.isEmpty()) return false;
+  const QList<QUrl> urls = drop->mimeData()->urls();
+  if (urls.isEmpty() || !std::ranges::all_of(urls, &QUrl::isLocalFile)) return false;
   drop->acceptProposedAction();
-  if (event->type() == QEvent::Drop) open(paths);
+  const LightField& field = *session_.light_field();
+  look_.start<bool>(
+      [urls, shape = io::FieldShape{field.grid(), field.height(), field.width()}](const Progress&) {
+        return std::ranges::all_of(urls, [&](const QUrl& url) {
+          return io::holds_labels_only(path_of(url.toLocalFile()), &shape);
+        });
+      },
+      [this, urls, watched](bool are_labels) {
+        if (!are_labels) return passOn(urls, watched);
+        QStringList paths;
+        for (const QUrl& url : urls) paths << url.toLocalFile();
+        open(paths);
+      });
   return true;
+}
+
+void LabelImporter::passOn(const QList<QUrl>& urls, QObject* window) {
+  QMimeData data;
+  data.setUrls(urls);
+  QDropEvent drop({}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+  const QScopedValueRollback passing_on(is_passing_on_, true);
+  QCoreApplication::sendEvent(window, &drop);
 }
 
 namespace {

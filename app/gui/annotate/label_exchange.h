@@ -2,15 +2,18 @@
 #pragma once
 
 #include "app/gui/scene/document_controller.h"
+#include "app/gui/shell/jobs.h"
 #include "app/gui/shell/workbench.h"
 #include "app/session/segmentation.h"
 #include "app/session/session.h"
 #include "engine/io/models/labels/label_export.h"
 
+#include <QList>
 #include <QObject>
 #include <QPointer>
 #include <QString>
 #include <QStringList>
+#include <QUrl>
 
 #include <cstdint>
 #include <memory>
@@ -59,16 +62,20 @@ class LabelImporter : public QObject {
     QStringList paths{};
     std::optional<std::vector<std::int32_t>> ignored{};
     QString table{};  ///< Of colors; empty = none.
+    bool zero_is_label = false;
   };
   void read();
   void show(const QStringList& paths, std::shared_ptr<io::ImportedLabels> labels);
   void useAsSegmentation(const io::ImportedLabels& labels);
+  void passOn(const QList<QUrl>& urls, QObject* window);
 
   Workbench bench_;
   Session& session_;
   DocumentController& document_;
   QPointer<ImportLabelsDialog> dialog_;
   Asked asked_, shown_;
+  LatestJob look_{this};
+  bool is_passing_on_ = false;  // what was dropped, to the window
 };
 
 /// Form in which labels are exported.

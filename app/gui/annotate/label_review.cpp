@@ -5,12 +5,14 @@
 #include "app/gui/scene/overlay.h"
 #include "app/gui/scene/viewer_area.h"
 #include "app/gui/shell/commands.h"
+#include "app/gui/shell/features.h"
 #include "app/gui/shell/frame.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/controls/layout.h"
 #include "widgets/controls/picture.h"
 #include "widgets/controls/text.h"
 
+#include <QCoreApplication>
 #include <QAction>
 #include <QComboBox>
 #include <QDialog>
@@ -23,7 +25,7 @@ namespace episcope {
 namespace {
 
 QString quoted(const LabelInfo& label) {
-  return LabelReviewController::tr("“%1”").arg(QString::fromStdString(label.name));
+  return LabelReviewController::tr("“%1”").arg(label_name(label));
 }
 
 }  // namespace
@@ -276,126 +278,162 @@ void LabelReviewController::mark(const Blob& blob) {
 
 namespace {
 
+struct StripControllerText {
+  Q_DECLARE_TR_FUNCTIONS(episcope::StripController)
+};
+
 constexpr QSize kSize(620, 560);
 
 EpiStripView::Epi drawn(const LabelEpi& epi, EpiDirection direction, std::int32_t label) {
   RgbaImage picture = epi.picture;
-  return {direction == EpiDirection::Horizontal ? StripController::tr("row %1").arg(epi.line)
-                                                : StripController::tr("column %1").arg(epi.line),
-          to_qimage(std::move(picture)),
-          boundaries_of(epi.labels.view(), label, Boundaries::OfLabel),
-          boundaries_of(epi.labels.view(), label, Boundaries::Others)};
+  return {
+      direction == EpiDirection::Horizontal ? StripControllerText::tr("row %1").arg(epi.line)
+                                            : StripControllerText::tr("column %1").arg(epi.line),
+      to_qimage(std::move(picture)), boundaries_of(epi.labels.view(), label, Boundaries::OfLabel),
+      boundaries_of(epi.labels.view(), label, Boundaries::Others)};
 }
 
 }  // namespace
 
-StripController::StripController(const Workbench& bench, LabelReviewPanel* panel)
-    : QObject(&bench.owner),
-      bench_(bench),
-      dialog_(named("strip", new QDialog(&bench.window))),
-      direction_(named("strip.direction", new QComboBox(dialog_))),
-      strip_view_(new EpiStripView(dialog_)),
-      job_(this) {
-  dialog_->resize(kSize);
-  direction_->addItem(tr("Horizontal EPIs: the views of this row"));
-  direction_->addItem(tr("Vertical EPIs: the views of this column"));
-  auto* scroll = new QScrollArea(dialog_);
-  scroll->setWidgetResizable(true);
-  scroll->setWidget(strip_view_);
-  make_column(dialog_, {direction_, {scroll, 1}}, {.margins = kStyleMargins});
-  addCommands(panel);
-  connect(direction_, &QComboBox::activated, this, &StripController::update);
-  connect(&bench.labels, &LabelChoice::changed, this, &StripController::update);
-  connect(&bench.overlay, &Overlay::drawn, this, &StripController::update);
-  connect(strip_view_, &EpiStripView::clicked, this, &StripController::goTo);
-}
+/// A window with EPIs through the current label over the views, with label boundaries.
+class StripController : public QObject {
+  Q_OBJECT
 
-void StripController::addCommands(LabelReviewPanel* panel) {
-  QAction* action = bench_.commands.add(
-      {.id = "review.strip",
-       .menu = Menu::Segmentation,
-       .text = tr("Label over the views…"),
-       .tip = tr("Shows EPIs through the current label with the boundaries of labels: straight "
-                 "lines where the views agree"),
-       .keys = {tr("Shift+L")},
-       .run = [this] { open(); },
-       .section = kCheckSection,
-       .enabled = [this] { return bench_.labels.current() != 0; }});
-  panel->addAction(action);
-}
-
-void StripController::open() {
-  dialog_->show();
-  dialog_->raise();
-  update();
-}
-
-EpiDirection StripController::direction() const {
-  return direction_->currentIndex() == 0 ? EpiDirection::Horizontal : EpiDirection::Vertical;
-}
-
-void StripController::hint(const QString& sentence) {
-  subject_.reset();
-  job_.drop();
-  strip_view_->setHint(sentence);
-  strip_view_->setEpis({}, {}, 0);
-}
-
-// While the window is hidden, nothing is made.
-void StripController::update() {
-  if (!dialog_->isVisible()) return;
-  const LabelInfo* label = bench_.labels.info();
-  dialog_->setWindowTitle(label ? tr("“%1” over the views").arg(QString::fromStdString(label->name))
-                                : tr("Label over the views"));
-  const auto source =
-      label ? bench_.overlay.sourceOf({render::Quantity::Segmentation}) : std::nullopt;
-  if (!source || source->labeling->labels.grid() != bench_.session.light_field()->grid()) {
-    hint(tr("This shows labels of all views: segment all views first (Shift+U)."));
-    return;
+ public:
+  /// Adds its button to the panel.
+  StripController(const Workbench& bench, LabelReviewPanel* panel)
+      : QObject(&bench.owner),
+        bench_(bench),
+        dialog_(named("strip", new QDialog(&bench.window))),
+        direction_(named("strip.direction", new QComboBox(dialog_))),
+        strip_view_(new EpiStripView(dialog_)),
+        job_(this) {
+    dialog_->resize(kSize);
+    direction_->addItem(tr("Horizontal EPIs: the views of this row"));
+    direction_->addItem(tr("Vertical EPIs: the views of this column"));
+    auto* scroll = new QScrollArea(dialog_);
+    scroll->setWidgetResizable(true);
+    scroll->setWidget(strip_view_);
+    make_column(dialog_, {direction_, {scroll, 1}}, {.margins = kStyleMargins});
+    addCommands(panel);
+    connect(direction_, &QComboBox::activated, this, &StripController::update);
+    connect(&bench.labels, &LabelChoice::changed, this, &StripController::update);
+    connect(&bench.overlay, &Overlay::drawn, this, &StripController::update);
+    connect(strip_view_, &EpiStripView::clicked, this, &StripController::goTo);
   }
-  const Subject now{source->labeling, source->finish, label->id, source->view, direction()};
-  if (now == subject_) return;
-  subject_ = now;
-  begin(now);
-}
 
-void StripController::begin(const Subject& subject) {
-  job_.start<LabelStrip>(
-      [subject, light_field = bench_.session.light_field()](const Progress& progress) {
-        return label_strip(
-            *light_field, *subject.labeling, subject.finish,
-            {.label = subject.label, .view = subject.view, .direction = subject.direction},
-            progress);
-      },
-      [this, subject](const LabelStrip& strip) { show(strip, subject); });
-}
+ private:
+  /// Input of a strip.
+  struct Subject {
+    LabelingPtr labeling;
+    LabelFinish finish;
+    int label = 0;
+    ViewIndex view;
+    EpiDirection direction = EpiDirection::Horizontal;
+    friend bool operator==(const Subject&, const Subject&) = default;
+  };
 
-void StripController::show(const LabelStrip& strip, const Subject& subject) {
-  strip_ = strip;
-  std::vector<EpiStripView::Epi> epis;
-  for (const LabelEpi& epi : strip.epis) {
-    epis.push_back(drawn(epi, strip.direction, subject.label));
+  void addCommands(LabelReviewPanel* panel) {
+    QAction* action = bench_.commands.add(
+        {.id = "review.strip",
+         .menu = Menu::Segmentation,
+         .text = tr("Label over the views…"),
+         .tip = tr("Shows EPIs through the current label with the boundaries of labels: straight "
+                   "lines where the views agree"),
+         .keys = {tr("Shift+L")},
+         .run = [this] { open(); },
+         .section = kCheckSection,
+         .enabled = [this] { return bench_.labels.current() != 0; }});
+    panel->addAction(action);
   }
-  const LabelInfo* label = bench_.labels.info();
-  const Rgb color = label ? label->color : label_color(subject.label);
-  const bool is_horizontal = strip.direction == EpiDirection::Horizontal;
-  strip_view_->setHint(tr("This view does not show this label."));
-  strip_view_->setEpis(std::move(epis), QColor(color[0], color[1], color[2]),
-                       is_horizontal ? subject.view.u : subject.view.v);
-}
 
-void StripController::goTo(int index, int view, int place) {
-  const int line = strip_.epis[static_cast<std::size_t>(index)].line;
-  const int at = strip_.first_place + place;
-  if (strip_.direction == EpiDirection::Horizontal) {
-    bench_.session.set_cross_hair({line, at});
-    bench_.session.set_view({bench_.session.view().v, view});
-  } else {
-    bench_.session.set_cross_hair({at, line});
-    bench_.session.set_view({view, bench_.session.view().u});
+  void open() {
+    dialog_->show();
+    dialog_->raise();
+    update();
   }
+
+  // While the window is hidden, nothing is made.
+  void update() {
+    if (!dialog_->isVisible()) return;
+    const LabelInfo* label = bench_.labels.info();
+    dialog_->setWindowTitle(label ? tr("“%1” over the views").arg(label_name(*label))
+                                  : tr("Label over the views"));
+    const auto source =
+        label ? bench_.overlay.sourceOf({render::Quantity::Segmentation}) : std::nullopt;
+    if (!source || source->labeling->labels.grid() != bench_.session.light_field()->grid()) {
+      hint(tr("This shows labels of all views: segment all views first (Shift+U)."));
+      return;
+    }
+    const Subject now{source->labeling, source->finish, label->id, source->view, direction()};
+    if (now == subject_) return;
+    subject_ = now;
+    begin(now);
+  }
+
+  void begin(const Subject& subject) {
+    job_.start<LabelStrip>(
+        [subject, light_field = bench_.session.light_field()](const Progress& progress) {
+          return label_strip(
+              *light_field, *subject.labeling, subject.finish,
+              {.label = subject.label, .view = subject.view, .direction = subject.direction},
+              progress);
+        },
+        [this, subject](const LabelStrip& strip) { show(strip, subject); });
+  }
+
+  void show(const LabelStrip& strip, const Subject& subject) {
+    strip_ = strip;
+    std::vector<EpiStripView::Epi> epis;
+    for (const LabelEpi& epi : strip.epis) {
+      epis.push_back(drawn(epi, strip.direction, subject.label));
+    }
+    const LabelInfo* label = bench_.labels.info();
+    const Rgb color = label ? label->color : label_color(subject.label);
+    const bool is_horizontal = strip.direction == EpiDirection::Horizontal;
+    strip_view_->setHint(tr("This view does not show this label."));
+    strip_view_->setEpis(std::move(epis), QColor(color[0], color[1], color[2]),
+                         is_horizontal ? subject.view.u : subject.view.v);
+  }
+
+  void hint(const QString& sentence) {
+    subject_.reset();
+    job_.drop();
+    strip_view_->setHint(sentence);
+    strip_view_->setEpis({}, {}, 0);
+  }
+
+  void goTo(int index, int view, int place) {
+    const int line = strip_.epis[static_cast<std::size_t>(index)].line;
+    const int at = strip_.first_place + place;
+    if (strip_.direction == EpiDirection::Horizontal) {
+      bench_.session.set_cross_hair({line, at});
+      bench_.session.set_view({bench_.session.view().v, view});
+    } else {
+      bench_.session.set_cross_hair({at, line});
+      bench_.session.set_view({view, bench_.session.view().u});
+    }
+  }
+
+  [[nodiscard]] EpiDirection direction() const {
+    return direction_->currentIndex() == 0 ? EpiDirection::Horizontal : EpiDirection::Vertical;
+  }
+
+  Workbench bench_;
+  QDialog* dialog_;
+  QComboBox* direction_;
+  EpiStripView* strip_view_;
+  std::optional<Subject> subject_;
+  LabelStrip strip_;
+  LatestJob job_;
+};
+
+void add_label_strip(const Workbench& bench, LabelReviewPanel* panel) {
+  new StripController(bench, panel);
 }
 
 }  // namespace episcope
 
 #include "moc_label_review.cpp"
+
+#include "label_review.moc"

@@ -14,9 +14,6 @@
 #include <optional>
 #include <vector>
 
-class QComboBox;
-class QDialog;
-
 namespace episcope {
 
 /// Goes to the places of a view where a stroke would help most, and to the islands and holes of the
@@ -69,43 +66,6 @@ class LabelReviewController : public QObject {
   std::shared_ptr<const ViewReview> review_;
   int doubt_ = -1;   // that is marked
   int awaited_ = 0;  // a step that was asked for before the review was there
-  LatestJob job_;
-};
-
-/// A window with EPIs through the current label over the views, with label boundaries.
-class StripController : public QObject {
-  Q_OBJECT
-
- public:
-  /// Adds its button to the panel.
-  StripController(const Workbench& bench, LabelReviewPanel* panel);
-
- private:
-  /// Input of a strip.
-  struct Subject {
-    LabelingPtr labeling;
-    LabelFinish finish;
-    int label = 0;
-    ViewIndex view;
-    EpiDirection direction = EpiDirection::Horizontal;
-    friend bool operator==(const Subject&, const Subject&) = default;
-  };
-
-  void addCommands(LabelReviewPanel* panel);
-  void open();
-  void update();
-  void begin(const Subject& subject);
-  void show(const LabelStrip& strip, const Subject& subject);
-  void hint(const QString& sentence);
-  void goTo(int index, int view, int place);
-  [[nodiscard]] EpiDirection direction() const;
-
-  Workbench bench_;
-  QDialog* dialog_;
-  QComboBox* direction_;
-  EpiStripView* strip_view_;
-  std::optional<Subject> subject_;
-  LabelStrip strip_;
   LatestJob job_;
 };
 

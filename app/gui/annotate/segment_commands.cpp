@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/gui/annotate/segment_commands.h"
+#include "app/gui/shell/features.h"
 
 #include "app/gui/annotate/annotation_files.h"
 #include "app/gui/annotate/segment_controller.h"

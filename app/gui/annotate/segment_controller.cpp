@@ -156,9 +156,8 @@ bool SegmentController::isComing() const {
 QString SegmentController::title(render::Quantity quantity) const {
   const LabelInfo* label = bench_.labels.info();
   const bool is_of_label = quantity == render::Quantity::Probability && label;
-  const QString name = is_of_label
-                           ? tr("probability of “%1”").arg(QString::fromStdString(label->name))
-                           : quantity_label(quantity);
+  const QString name =
+      is_of_label ? tr("probability of “%1”").arg(label_name(*label)) : quantity_label(quantity);
   const bool is_outdated = quantity != render::Quantity::Edges && !live_.is_running() &&
                            live_.labeling(session_.view()) &&
                            !live_.is_up_to_date(session_.view()) &&

@@ -9,37 +9,9 @@
 #include "engine/core/scene.h"
 #include "engine/render/shade.h"
 
-#include <QObject>
-#include <QStringList>
-
 #include <optional>
 
-class QDialog;
-
 namespace episcope {
-
-class TonePanel;
-class ValueBar;
-
-/// Shows the values of the pixel under the cursor, or at the cross-hair while the cursor is
-/// elsewhere; prints values into large pixels; counts running jobs.
-class ValueController : public QObject {
-  Q_OBJECT
-
- public:
-  explicit ValueController(const Workbench& bench);
-
- private:
-  void show();
-  void showStatus();
-  [[nodiscard]] QStringList pixelText(PixelIndex pixel) const;
-  [[nodiscard]] QStringList labelsAt(PixelIndex pixel) const;
-
-  Workbench bench_;
-  Session& session_;
-  ValueBar* bar_;
-  std::optional<PixelIndex> cursor_;
-};
 
 /// Disparity of one pixel; none outside the field or where it is invalid.
 [[nodiscard]] inline std::optional<double> disparity_at(const DisparityField& field, ViewIndex view,
@@ -76,27 +48,5 @@ struct DisparityPair {
   }
   return pair;
 }
-
-/// Brightness of displayed views, per scene; offers to brighten dark ones.
-class ToneController : public QObject {
-  Q_OBJECT
-
- public:
-  explicit ToneController(const Workbench& bench);
-
- private:
-  void addCommands();
-  void update(Parts parts);
-  void brighten();
-  void look();
-  /// Keeps the brightness for the next time that the light field is opened.
-  void remember() const;
-  [[nodiscard]] std::optional<render::Tone> remembered() const;
-
-  Workbench bench_;
-  QDialog* dialog_;
-  TonePanel* panel_;
-  LatestJob job_;
-};
 
 }  // namespace episcope

@@ -35,66 +35,82 @@
 
 namespace episcope {
 
-MeshResults::MeshResults(const Workbench& bench, const CaptureDocuments& documents,
-                         const MeshShelf& shelf, QObject* parent)
-    : QObject(parent), bench_(bench), documents_(documents), shelf_(shelf) {}
+/// Outputs of meshes and poses: a result, ground truth, files of poses.
+class MeshResults : public QObject {
+  Q_OBJECT
 
-std::vector<PosedMesh> MeshResults::posedMeshes() const {
-  std::vector<PosedMesh> posed;
-  QStringList left_out;
-  for (const CaptureObject& object : documents_.now().work().objects) {
-    const ReadMesh* read = shelf_.find(object.mesh);
-    if (read && object.pose) {
-      posed.push_back({read->mesh, object.pose->pose});
-    } else {
-      left_out << QString::fromStdString(object.name);
+ public:
+  MeshResults(const Workbench& bench, const CaptureDocuments& documents, const MeshShelf& shelf,
+              QObject* parent)
+      : QObject(parent), bench_(bench), documents_(documents), shelf_(shelf) {}
+
+  /// Adds the depth of all objects in the center view as a result, replacing the previous one.
+  void showOverView() {
+    const std::vector<PosedMesh> meshes = posedMeshes();
+    if (meshes.empty()) return;
+    const quint64 job = bench_.jobs.start<EstimatePtr>(
+        Lane::Estimate, job_title(tr("Depth of the mesh"), bench_.session),
+        [meshes, scene = bench_.session.scene()](const Progress& progress) {
+          return std::make_shared<const Estimate>(mesh_estimate(meshes, *scene, progress));
+        },
+        [this, scene = bench_.session.generation()](const EstimatePtr& estimate) {
+          int& result = results_[scene];
+          if (scene == bench_.session.generation()) bench_.session.remove_estimate(result);
+          result = bench_.session.add_estimate(estimate, display_range(*estimate), scene);
+          bench_.session.show_opened_estimate(result);
+        });
+    bench_.jobs.setScene(job, bench_.session.generation());
+  }
+
+  /// Writes the light field with the depth of all objects in all views as ground truth.
+  void writeTruth(const QString& path) {
+    const std::vector<PosedMesh> meshes = posedMeshes();
+    if (meshes.empty() || !is_new_light_field(path, bench_.messages)) return;
+    write_in_background(
+        bench_.jobs, bench_.messages, path,
+        [file = path_of(path), meshes, scene = bench_.session.scene()](const Progress& progress) {
+          const Scene made = with_mesh_truth(meshes, *scene, progress.part(0, 0.9));
+          io::write_archive(file, made, progress.part(0.9, 1));
+        });
+  }
+
+  /// Writes the pose of the current object.
+  void savePose(const QString& path) {
+    const CaptureObject* object = documents_.now().work().object();
+    if (!object || !object->pose || !has_suffix(path, {"json"}, bench_.messages)) return;
+    const capture::PoseStory story{object->mesh, bench_.session.input(),
+                                   bench_.session.light_field()->info().camera, object->pairs,
+                                   *object->pose};
+    write_in_background(
+        bench_.jobs, bench_.messages, path,
+        [file = path_of(path), story](const Progress&) { capture::write_pose(file, story); });
+  }
+
+ private:
+  /// All objects with mesh and pose. Tells the user which are left out.
+  [[nodiscard]] std::vector<PosedMesh> posedMeshes() const {
+    std::vector<PosedMesh> posed;
+    QStringList left_out;
+    for (const CaptureObject& object : documents_.now().work().objects) {
+      const ReadMesh* read = shelf_.find(object.mesh);
+      if (read && object.pose) {
+        posed.push_back({read->mesh, object.pose->pose});
+      } else {
+        left_out << QString::fromStdString(object.name);
+      }
     }
+    if (!posed.empty() && !left_out.isEmpty()) {
+      bench_.messages.warn(
+          tr("Skipped without a mesh or a pose: %1.").arg(left_out.join(QStringLiteral(", "))));
+    }
+    return posed;
   }
-  if (!posed.empty() && !left_out.isEmpty()) {
-    bench_.messages.warn(
-        tr("Skipped without a mesh or a pose: %1.").arg(left_out.join(QStringLiteral(", "))));
-  }
-  return posed;
-}
 
-void MeshResults::showOverView() {
-  const std::vector<PosedMesh> meshes = posedMeshes();
-  if (meshes.empty()) return;
-  const quint64 job = bench_.jobs.start<EstimatePtr>(
-      Lane::Estimate, job_title(tr("Depth of the mesh"), bench_.session),
-      [meshes, scene = bench_.session.scene()](const Progress& progress) {
-        return std::make_shared<const Estimate>(mesh_estimate(meshes, *scene, progress));
-      },
-      [this, scene = bench_.session.generation()](const EstimatePtr& estimate) {
-        int& result = results_[scene];
-        if (scene == bench_.session.generation()) bench_.session.remove_estimate(result);
-        result = bench_.session.add_estimate(estimate, display_range(*estimate), scene);
-        bench_.session.show_opened_estimate(result);
-      });
-  bench_.jobs.setScene(job, bench_.session.generation());
-}
-
-void MeshResults::writeTruth(const QString& path) {
-  const std::vector<PosedMesh> meshes = posedMeshes();
-  if (meshes.empty() || !is_new_light_field(path, bench_.messages)) return;
-  write_in_background(
-      bench_.jobs, bench_.messages, path,
-      [file = path_of(path), meshes, scene = bench_.session.scene()](const Progress& progress) {
-        const Scene made = with_mesh_truth(meshes, *scene, progress.part(0, 0.9));
-        io::write_archive(file, made, progress.part(0.9, 1));
-      });
-}
-
-void MeshResults::savePose(const QString& path) {
-  const CaptureObject* object = documents_.now().work().object();
-  if (!object || !object->pose || !has_suffix(path, {"json"}, bench_.messages)) return;
-  const capture::PoseStory story{object->mesh, bench_.session.input(),
-                                 bench_.session.light_field()->info().camera, object->pairs,
-                                 *object->pose};
-  write_in_background(
-      bench_.jobs, bench_.messages, path,
-      [file = path_of(path), story](const Progress&) { capture::write_pose(file, story); });
-}
+  Workbench bench_;
+  const CaptureDocuments& documents_;
+  const MeshShelf& shelf_;
+  std::map<std::uint64_t, int> results_;  // by OpenScene::id
+};
 
 MeshShelf::MeshShelf(const Workbench& bench, QObject* parent) : QObject(parent), bench_(bench) {
   connect(&bench.jobs, &Jobs::failed, this, [this](const QString&, quint64 job) {
@@ -538,3 +554,5 @@ std::optional<capture::SnappedPick> PickSnapper::snap(const LightFieldPtr& light
 }  // namespace episcope
 
 #include "moc_capture_controller.cpp"
+
+#include "capture_controller.moc"

@@ -29,31 +29,6 @@ namespace episcope {
 class CaptureDocuments;
 class MeshShelf;
 
-/// Outputs of meshes and poses: a result, ground truth, files of poses.
-class MeshResults : public QObject {
-  Q_OBJECT
-
- public:
-  MeshResults(const Workbench& bench, const CaptureDocuments& documents, const MeshShelf& shelf,
-              QObject* parent);
-
-  /// Adds the depth of all objects in the center view as a result, replacing the previous one.
-  void showOverView();
-  /// Writes the light field with the depth of all objects in all views as ground truth.
-  void writeTruth(const QString& path);
-  /// Writes the pose of the current object.
-  void savePose(const QString& path);
-
- private:
-  /// All objects with mesh and pose. Tells the user which are left out.
-  [[nodiscard]] std::vector<PosedMesh> posedMeshes() const;
-
-  Workbench bench_;
-  const CaptureDocuments& documents_;
-  const MeshShelf& shelf_;
-  std::map<std::uint64_t, int> results_;  // by OpenScene::id
-};
-
 /// A mesh, and its form for the 3D view.
 struct ReadMesh {
   std::shared_ptr<const capture::TriangleMesh> mesh;
@@ -88,10 +63,8 @@ class MeshShelf : public QObject {
   std::map<std::string, quint64> reading_;  // with its newest job
   std::set<std::string> broken_;
 };
-class CaptureDocuments;
 class CapturePanel;
 class MeshResults;
-class MeshShelf;
 class Photographs;
 class RawPictures;
 struct ReadMesh;

@@ -5,6 +5,7 @@
 #include "app/gui/scene/overlay.h"
 #include "app/gui/shell/commands.h"
 #include "app/gui/shell/dialogs.h"
+#include "app/gui/shell/features.h"
 #include "app/gui/shell/frame.h"
 #include "app/session/command_line.h"
 #include "app/session/run_estimator.h"
@@ -83,200 +84,224 @@ void mark_minor(std::vector<MetricColumn>& columns, const std::vector<MetricRow>
 
 }  // namespace
 
-MetricController::MetricController(const Workbench& bench, MetricTable* table,
-                                   const RegionController& region)
-    : QObject(&bench.owner),
-      bench_(bench),
-      session_(bench.session),
-      table_(table),
-      region_(region),
-      part_job_(this) {
-  connect(table_, &MetricTable::rowClicked, this,
-          [this](quint64 id) { session_.show_estimate(static_cast<int>(id)); });
-  connect(table_, &MetricTable::compareRequested, this,
-          [this](quint64 id) { session_.compare_with(static_cast<int>(id)); });
-  connect(table_, &MetricTable::copied, this, [this](const QString& form) {
-    const auto count = session_.estimates().size();
-    bench_.messages.hint(count == 1
-                             ? tr("Copied the numbers of one result as %1").arg(form)
-                             : tr("Copied the numbers of %1 results as %2").arg(count).arg(form));
-  });
-  connect(table_, &MetricTable::saveRequested, this, &MetricController::save);
-  addCommands();
-  connect(&region_, &RegionController::changed, this, [this] {
-    scored_.clear();
-    update(Part::Evaluations);
-  });
-  session_.on_changed([this](Parts parts) { update(parts); });
-  update(Part::Scene);
-}
+/// Fills the table of metrics: every result under both protocols, in the evaluated region.
+class MetricController : public QObject {
+  Q_OBJECT
 
-void MetricController::addCommands() {
-  const auto add = [this](const QString& suffix, const QString& text, const QString& tip) {
-    bench_.commands.add(
-        {.id = "file.save_metrics_" + suffix,
-         .menu = Menu::Export,
-         .text = text,
-         .tip = tip,
-         .run = [this,
-                 suffix] { save(suffix, suffix == "csv" ? table_->toCsv() : table_->toLatex()); },
-         .section = section::kResults,
-         .enabled = [this] { return !table_->isEmpty(); }});
+ public:
+  MetricController(const Workbench& bench, MetricTable* table, const RegionController& region)
+      : QObject(&bench.owner),
+        bench_(bench),
+        session_(bench.session),
+        table_(table),
+        region_(region),
+        part_job_(this) {
+    connect(table_, &MetricTable::rowClicked, this,
+            [this](quint64 id) { session_.show_estimate(static_cast<int>(id)); });
+    connect(table_, &MetricTable::compareRequested, this,
+            [this](quint64 id) { session_.compare_with(static_cast<int>(id)); });
+    connect(table_, &MetricTable::copied, this, [this](const QString& form) {
+      const auto count = session_.estimates().size();
+      bench_.messages.hint(count == 1
+                               ? tr("Copied the numbers of one result as %1").arg(form)
+                               : tr("Copied the numbers of %1 results as %2").arg(count).arg(form));
+    });
+    connect(table_, &MetricTable::saveRequested, this, &MetricController::save);
+    addCommands();
+    connect(&region_, &RegionController::changed, this, [this] {
+      scored_.clear();
+      update(Part::Evaluations);
+    });
+    session_.on_changed([this](Parts parts) { update(parts); });
+    update(Part::Scene);
+  }
+
+ private:
+  /// Score of a region in an evaluation.
+  struct Scored {
+    EvaluationPtr evaluation;
+    Protocol protocol;
+    PartScore score;
   };
-  add("csv", tr("Table of metrics (CSV)…"),
-      tr("Writes the metrics of all results with every column, as numbers for a program"));
-  add("tex", tr("Table of metrics (LaTeX)…"),
-      tr("Writes the metrics of all results as they are shown, as a LaTeX table"));
-}
 
-void MetricController::update(Parts parts) {
-  if (parts.has(Part::Scene)) {
-    told_.clear();
-    scored_.clear();
+  void addCommands() {
+    const auto add = [this](const QString& suffix, const QString& text, const QString& tip) {
+      bench_.commands.add(
+          {.id = "file.save_metrics_" + suffix,
+           .menu = Menu::Export,
+           .text = text,
+           .tip = tip,
+           .run = [this,
+                   suffix] { save(suffix, suffix == "csv" ? table_->toCsv() : table_->toLatex()); },
+           .section = section::kResults,
+           .enabled = [this] { return !table_->isEmpty(); }});
+    };
+    add("csv", tr("Table of metrics (CSV)…"),
+        tr("Writes the metrics of all results with every column, as numbers for a program"));
+    add("tex", tr("Table of metrics (LaTeX)…"),
+        tr("Writes the metrics of all results as they are shown, as a LaTeX table"));
   }
-  const Parts of_rows = Part::Scene | Part::Estimates | Part::Evaluations | Part::Live;
-  if (parts.has_any(of_rows)) fillTable();
-  if (parts.has_any(of_rows | Part::Shown)) {
-    const EstimateEntry* shown = session_.side_a();
-    const EstimateEntry* compared = session_.side_b();
-    table_->setSides(shown ? static_cast<quint64>(shown->id) : 0,
-                     compared ? static_cast<quint64>(compared->id) : 0);
-  }
-}
 
-void MetricController::fillTable() {
-  const auto& scene = session_.scene();
-  if (!scene || (!scene->truth->has_disparity() && !scene->truth->has_layers())) {
-    table_->setTable({}, {});
-    table_->setEmptyText(scene ? tr("This light field has no ground truth to compare results with.")
-                               : tr("Open a light field with ground truth and run a method."));
-    return;
-  }
-  table_->setEmptyText(tr("Run a method: its errors against the ground truth appear here."));
-  const std::vector<Judged> judged = judgeAll();
-  const std::vector<Place> places = places_of(judged);
-  std::vector<MetricColumn> columns = {
-      {"method", tr("Result"), tr("Name of the result"), 0, BestValue::None}};
-  for (const Place& place : places) columns.push_back(metric_column(place.protocol, place.key));
-  addPixels(columns);
-  columns.push_back({"seconds", tr("Time\ns"), tr("Seconds taken"), 2, BestValue::Least});
-  const auto add_text = [&columns](const QString& key, const QString& label) {
-    columns.push_back({key, label, {}, 0, BestValue::None, false});
-  };
-  add_text("region", tr("Evaluated on"));
-  add_text("scene", tr("Scene"));
-  add_text("method_id", tr("Method"));
-  add_text("parameters", tr("Parameters"));
-  add_text("ended_early", tr("Ended early"));
-  add_text("note", tr("Note"));
-  std::vector<MetricRow> rows;
-  for (const Judged& each : judged) {
-    const EstimateEntry& entry = *session_.find_estimate(each.id);
-    rows.push_back(row_of(each, places));
-    rows.back().warning = foreign_text(entry);
-    for (const QString& cell : provenanceOf(entry)) rows.back().values.emplace_back(cell);
-  }
-  mark_minor(columns, rows);
-  table_->setTable(columns, rows);
-}
-
-void MetricController::addPixels(std::vector<MetricColumn>& columns) const {
-  if (!region_.region()) return;
-  columns.push_back(
-      {"vmv2013.pixels", tr("Pixels"), tr("Pixels that were evaluated"), 0, BestValue::None});
-  columns.push_back({"benchmark2016.pixels", tr("Pixels\n2016"),
-                     tr("Evaluated pixels without the border of 15 px that this protocol ignores"),
-                     0, BestValue::None});
-}
-
-QStringList MetricController::provenanceOf(const EstimateEntry& entry) const {
-  const Estimate& estimate = *entry.estimate;
-  QStringList parameters;
-  const ParameterSet changed = changed_parameters(estimate.method, estimate.parameters);
-  for (const auto& [key, value] : changed) {
-    parameters << QString::fromStdString(key + "=" + to_text(value));
-  }
-  if (estimate.range.length() > 0 && !find_value(changed, "range")) {
-    parameters << "searched=" + QString::fromStdString(to_text(IntervalOrAuto(estimate.range)));
-  }
-  return {region_.name(),
-          QString::fromStdString(session_.light_field()->info().name),
-          QString::fromStdString(estimate.method),
-          parameters.join(' '),
-          was_taken_early(estimate) ? tr("yes") : tr("no"),
-          QString::fromStdString(entry.note)};
-}
-
-std::vector<Judged> MetricController::judgeAll() {
-  std::vector<Judged> judged;
-  std::vector<Scored> wanted;
-  std::vector<const EstimateEntry*> entries;
-  if (const EstimateEntry* live = session_.live()) entries.push_back(live);
-  for (const EstimateEntry& entry : session_.estimates()) entries.push_back(&entry);
-  for (const EstimateEntry* each_entry : entries) {
-    const EstimateEntry& entry = *each_entry;
-    Judged each{entry.id, entry.name, entry.estimate->seconds, {}};
-    for (const Protocol protocol : kProtocols) {
-      const auto evaluation =
-          session_.evaluation({entry.id, judged_view(*session_.scene()), protocol});
-      if (region_.region()) each.pixels[protocol] = 0;
-      if (!evaluation) continue;
-      tell(evaluation->notes);
-      if (!region_.region()) {
-        each.metrics[protocol] = evaluation->metrics;
-      } else if (const PartScore* score = scoreOf(evaluation, protocol)) {
-        each.metrics[protocol] = score->metrics;
-        each.pixels[protocol] = score->pixels;
-      } else {
-        wanted.push_back({evaluation, protocol, {}});
-      }
+  void update(Parts parts) {
+    if (parts.has(Part::Scene)) {
+      told_.clear();
+      scored_.clear();
     }
-    judged.push_back(std::move(each));
+    const Parts of_rows = Part::Scene | Part::Estimates | Part::Evaluations | Part::Live;
+    if (parts.has_any(of_rows)) fillTable();
+    if (parts.has_any(of_rows | Part::Shown)) {
+      const EstimateEntry* shown = session_.side_a();
+      const EstimateEntry* compared = session_.side_b();
+      table_->setSides(shown ? static_cast<quint64>(shown->id) : 0,
+                       compared ? static_cast<quint64>(compared->id) : 0);
+    }
   }
-  if (!wanted.empty()) score(std::move(wanted));
-  return judged;
-}
 
-const PartScore* MetricController::scoreOf(const EvaluationPtr& evaluation,
-                                           Protocol protocol) const {
-  const auto found = std::ranges::find_if(scored_, [&](const Scored& each) {
-    return each.evaluation == evaluation && each.protocol == protocol;
-  });
-  return found == scored_.end() ? nullptr : &found->score;
-}
+  void fillTable() {
+    const auto& scene = session_.scene();
+    if (!scene || (!scene->truth->has_disparity() && !scene->truth->has_layers())) {
+      table_->setTable({}, {});
+      table_->setEmptyText(scene
+                               ? tr("This light field has no ground truth to compare results with.")
+                               : tr("Open a light field with ground truth and run a method."));
+      return;
+    }
+    table_->setEmptyText(tr("Run a method: its errors against the ground truth appear here."));
+    const std::vector<Judged> judged = judgeAll();
+    const std::vector<Place> places = places_of(judged);
+    std::vector<MetricColumn> columns = {
+        {"method", tr("Result"), tr("Name of the result"), 0, BestValue::None}};
+    for (const Place& place : places) columns.push_back(metric_column(place.protocol, place.key));
+    addPixels(columns);
+    columns.push_back({"seconds", tr("Time\ns"), tr("Seconds taken"), 2, BestValue::Least});
+    const auto add_text = [&columns](const QString& key, const QString& label) {
+      columns.push_back({key, label, {}, 0, BestValue::None, false});
+    };
+    add_text("region", tr("Evaluated on"));
+    add_text("scene", tr("Scene"));
+    add_text("method_id", tr("Method"));
+    add_text("parameters", tr("Parameters"));
+    add_text("ended_early", tr("Ended early"));
+    add_text("note", tr("Note"));
+    std::vector<MetricRow> rows;
+    for (const Judged& each : judged) {
+      const EstimateEntry& entry = *session_.find_estimate(each.id);
+      rows.push_back(row_of(each, places));
+      rows.back().warning = foreign_text(entry);
+      for (const QString& cell : provenanceOf(entry)) rows.back().values.emplace_back(cell);
+    }
+    mark_minor(columns, rows);
+    table_->setTable(columns, rows);
+  }
 
-void MetricController::score(std::vector<Scored> wanted) {
-  part_job_.start<std::vector<Scored>>(
-      [wanted = std::move(wanted), region = region_.region()](const Progress& progress) {
-        std::vector<Scored> scored = wanted;
-        for (Scored& each : scored) {
-          progress.check();
-          each.score = score_part(*each.evaluation, region.get(), each.protocol);
+  void addPixels(std::vector<MetricColumn>& columns) const {
+    if (!region_.region()) return;
+    columns.push_back(
+        {"vmv2013.pixels", tr("Pixels"), tr("Pixels that were evaluated"), 0, BestValue::None});
+    columns.push_back(
+        {"benchmark2016.pixels", tr("Pixels\n2016"),
+         tr("Evaluated pixels without the border of 15 px that this protocol ignores"), 0,
+         BestValue::None});
+  }
+
+  [[nodiscard]] QStringList provenanceOf(const EstimateEntry& entry) const {
+    const Estimate& estimate = *entry.estimate;
+    QStringList parameters;
+    const ParameterSet changed = changed_parameters(estimate.method, estimate.parameters);
+    for (const auto& [key, value] : changed) {
+      parameters << QString::fromStdString(key + "=" + to_text(value));
+    }
+    if (estimate.range.length() > 0 && !find_value(changed, "range")) {
+      parameters << "searched=" + QString::fromStdString(to_text(IntervalOrAuto(estimate.range)));
+    }
+    return {region_.name(),
+            QString::fromStdString(session_.light_field()->info().name),
+            QString::fromStdString(estimate.method),
+            parameters.join(' '),
+            was_taken_early(estimate) ? tr("yes") : tr("no"),
+            QString::fromStdString(entry.note)};
+  }
+
+  [[nodiscard]] std::vector<Judged> judgeAll() {
+    std::vector<Judged> judged;
+    std::vector<Scored> wanted;
+    std::vector<const EstimateEntry*> entries;
+    if (const EstimateEntry* live = session_.live()) entries.push_back(live);
+    for (const EstimateEntry& entry : session_.estimates()) entries.push_back(&entry);
+    for (const EstimateEntry* each_entry : entries) {
+      const EstimateEntry& entry = *each_entry;
+      Judged each{entry.id, entry.name, entry.estimate->seconds, {}};
+      for (const Protocol protocol : kProtocols) {
+        const auto evaluation =
+            session_.evaluation({entry.id, judged_view(*session_.scene()), protocol});
+        if (region_.region()) each.pixels[protocol] = 0;
+        if (!evaluation) continue;
+        tell(evaluation->notes);
+        if (!region_.region()) {
+          each.metrics[protocol] = evaluation->metrics;
+        } else if (const PartScore* score = scoreOf(evaluation, protocol)) {
+          each.metrics[protocol] = score->metrics;
+          each.pixels[protocol] = score->pixels;
+        } else {
+          wanted.push_back({evaluation, protocol, {}});
         }
-        return scored;
-      },
-      [this](const std::vector<Scored>& scored) {
-        scored_.insert(scored_.end(), scored.begin(), scored.end());
-        update(Part::Evaluations);
-      });
-}
-
-void MetricController::tell(const std::vector<std::string>& notes) {
-  for (const std::string& note : notes) {
-    if (!told_.insert(note).second) continue;
-    bench_.messages.warn(finding_words(note));
-    bench_.messages.endWithLightField();
+      }
+      judged.push_back(std::move(each));
+    }
+    if (!wanted.empty()) score(std::move(wanted));
+    return judged;
   }
-}
 
-void MetricController::save(const QString& suffix, const QString& text) {
-  ask_where_to_save_text(bench_,
-                         {.name = "save_table",
-                          .title = tr("Save the table"),
-                          .filter = suffix == "csv" ? tr("CSV (*.csv)") : tr("LaTeX (*.tex)"),
-                          .proposal = named_after_front(bench_, "metrics." + suffix)},
-                         text);
-}
+  /// Score of the evaluated region; none while it is being computed.
+  [[nodiscard]] const PartScore* scoreOf(const EvaluationPtr& evaluation, Protocol protocol) const {
+    const auto found = std::ranges::find_if(scored_, [&](const Scored& each) {
+      return each.evaluation == evaluation && each.protocol == protocol;
+    });
+    return found == scored_.end() ? nullptr : &found->score;
+  }
+
+  void score(std::vector<Scored> wanted) {
+    part_job_.start<std::vector<Scored>>(
+        [wanted = std::move(wanted), region = region_.region()](const Progress& progress) {
+          std::vector<Scored> scored = wanted;
+          for (Scored& each : scored) {
+            progress.check();
+            each.score = score_part(*each.evaluation, region.get(), each.protocol);
+          }
+          return scored;
+        },
+        [this](const std::vector<Scored>& scored) {
+          scored_.insert(scored_.end(), scored.begin(), scored.end());
+          update(Part::Evaluations);
+        });
+  }
+
+  /// Warns once per light field of missing metrics.
+  void tell(const std::vector<std::string>& notes) {
+    for (const std::string& note : notes) {
+      if (!told_.insert(note).second) continue;
+      bench_.messages.warn(finding_words(note));
+      bench_.messages.endWithLightField();
+    }
+  }
+
+  void save(const QString& suffix, const QString& text) {
+    ask_where_to_save_text(bench_,
+                           {.name = "save_table",
+                            .title = tr("Save the table"),
+                            .filter = suffix == "csv" ? tr("CSV (*.csv)") : tr("LaTeX (*.tex)"),
+                            .proposal = named_after_front(bench_, "metrics." + suffix)},
+                           text);
+  }
+
+  Workbench bench_;
+  Session& session_;
+  MetricTable* table_;
+  const RegionController& region_;
+  LatestJob part_job_;
+  std::vector<Scored> scored_;  // of the present part
+  std::set<std::string> told_;
+};
 
 namespace {
 
@@ -423,6 +448,10 @@ MetricColumn metric_column(Protocol protocol, const std::string& key) {
           is_known ? found->decimals : 3, is_share ? BestValue::Greatest : BestValue::Least};
 }
 
+void add_metrics(const Workbench& bench, MetricTable* table, const RegionController& region) {
+  new MetricController(bench, table, region);
+}
+
 }  // namespace episcope
 
-#include "moc_metric_controller.cpp"
+#include "metric_controller.moc"

@@ -6,6 +6,7 @@
 #include "app/gui/scene/overlay.h"
 #include "app/gui/scene/viewer_area.h"
 #include "app/gui/shell/commands.h"
+#include "app/gui/shell/features.h"
 #include "app/gui/shell/frame.h"
 #include "app/gui/shell/panes.h"
 #include "app/session/session.h"
@@ -209,107 +210,137 @@ QString legend_of(const EstimateEntry& entry, const EstimateEntry* other) {
 
 }  // namespace
 
-ErrorPlotController::ErrorPlotController(const Workbench& bench, const RegionController& region)
-    : QObject(&bench.owner),
-      bench_(bench),
-      session_(bench.session),
-      region_(region),
-      panel_(new ErrorPlotPanel(&bench.frame)),
-      job_(this) {
-  bench.frame.addTab({.id = kTab,
-                      .title = tr("Errors"),
-                      .task = "compare",
-                      .command_text = tr("Errors tab"),
-                      .command_tip = tr("Plots errors against the true disparity"),
-                      .widget = panel_,
-                      .key = tr("Ctrl+Alt+B")});
-  connect(&bench.frame, &Frame::tabShown, this, &ErrorPlotController::update);
-  connect(&region, &RegionController::changed, this, &ErrorPlotController::update);
-  session_.on_changed([this](Parts parts) {
-    if (parts.has_any(Part::Scene | Part::Estimates | Part::Shown | Part::Evaluations | Part::Live))
-      update();
-  });
-}
+/// The tab of errors over true disparity, for the shown result and the one compared with it, in the
+/// evaluated region. Computed in the background, only while the tab is visible.
+class ErrorPlotController : public QObject {
+  Q_OBJECT
 
-QString ErrorPlotController::obstacle() const {
-  const auto& scene = session_.scene();
-  if (!scene) return tr("Open a light field with ground truth and run a method.");
-  if (!scene->truth->has_disparity() && !scene->truth->has_layers()) {
-    return tr("This light field has no ground truth to compare results with.");
+ public:
+  ErrorPlotController(const Workbench& bench, const RegionController& region)
+      : QObject(&bench.owner),
+        bench_(bench),
+        session_(bench.session),
+        region_(region),
+        panel_(new ErrorPlotPanel(&bench.frame)),
+        job_(this) {
+    bench.frame.addTab({.id = kTab,
+                        .title = tr("Errors"),
+                        .task = "compare",
+                        .command_text = tr("Errors tab"),
+                        .command_tip = tr("Plots errors against the true disparity"),
+                        .widget = panel_,
+                        .key = tr("Ctrl+Alt+B")});
+    connect(&bench.frame, &Frame::tabShown, this, &ErrorPlotController::update);
+    connect(&region, &RegionController::changed, this, &ErrorPlotController::update);
+    session_.on_changed([this](Parts parts) {
+      if (parts.has_any(Part::Scene | Part::Estimates | Part::Shown | Part::Evaluations |
+                        Part::Live))
+        update();
+    });
   }
-  if (!session_.side_a()) return tr("Run a method: its errors by true disparity appear here.");
-  if (!can_judge(*session_.side_a()->estimate, *scene, judged_view(*scene))) {
-    return tr("%1 has no map of the view with the ground truth.")
-        .arg(QString::fromStdString(session_.side_a()->name));
-  }
-  return {};
-}
 
-std::optional<ErrorPlotController::Judged> ErrorPlotController::judged(const EstimateEntry& entry) {
-  const GroundTruth& truth = *session_.scene()->truth;
-  const ViewIndex view = judged_view(*session_.scene());
-  auto evaluation = session_.evaluation({entry.id, view, Protocol::Vmv2013});
-  if (!evaluation) return std::nullopt;
-  const bool is_layered = truth.has_layers() && !entry.estimate->layered.foreground.empty();
-  const DisparityField& field = is_layered ? truth.foreground : truth.field;
-  return Judged{QString::fromStdString(entry.name), std::move(evaluation), field.view(view)};
-}
+ private:
+  struct Judged {
+    QString name;
+    EvaluationPtr evaluation;
+    DisparityView truth;  ///< Owned by the scene, which outlives the job.
+    QString legend{};
+  };
 
-void ErrorPlotController::update() {
-  if (!bench_.frame.panes().isSeen(QString("tab.") + kTab)) return job_.drop();
-  const QString why = obstacle();
-  if (!why.isEmpty()) {
-    job_.drop();
-    return panel_->clear(why);
+  void update() {
+    if (!bench_.frame.panes().isSeen(QString("tab.") + kTab)) return job_.drop();
+    const QString why = obstacle();
+    if (!why.isEmpty()) {
+      job_.drop();
+      return panel_->clear(why);
+    }
+    std::vector<Judged> results;
+    const EstimateEntry* a = session_.side_a();
+    const EstimateEntry* b = session_.side_b();
+    for (const auto& [entry, other] : {std::pair(a, b), std::pair(b, a)}) {
+      if (!entry) continue;
+      auto result = judged(*entry);
+      if (!result) continue;
+      result->legend = legend_of(*entry, other);
+      results.push_back(std::move(*result));
+    }
+    if (!results.empty()) start(results);  // else they tell when they are there
   }
-  std::vector<Judged> results;
-  const EstimateEntry* a = session_.side_a();
-  const EstimateEntry* b = session_.side_b();
-  for (const auto& [entry, other] : {std::pair(a, b), std::pair(b, a)}) {
-    if (!entry) continue;
-    auto result = judged(*entry);
-    if (!result) continue;
-    result->legend = legend_of(*entry, other);
-    results.push_back(std::move(*result));
-  }
-  if (!results.empty()) start(results);  // else they tell when they are there
-}
 
-void ErrorPlotController::start(const std::vector<Judged>& results) {
-  const double threshold_px = session_.bad_threshold_px();
-  job_.start<std::vector<ErrorProfile>>(
-      [results, scene = session_.scene(), region = region_.region(),
-       threshold_px](const Progress& progress) {
-        std::vector<ErrorProfile> profiles;
-        for (const Judged& each : results) {
-          progress.check();
-          profiles.push_back(
-              errors_by_disparity(*each.evaluation, each.truth, region.get(), kBins, threshold_px));
-        }
-        return profiles;
-      },
-      [this, results, threshold_px,
-       part = region_.name()](const std::vector<ErrorProfile>& profiles) {
-        const PlotAxis x{tr("True disparity [px]")};
-        Plot squares{x, {tr("MSE×100 [px²]")}, {}};
-        Plot bad{x,
-                 {tr("Bad pixels: off by more than %1 px [%]").arg(number_text(threshold_px, 2))},
-                 {}};
-        std::size_t pixels = 0;
-        for (const ErrorBin& bin : profiles.front()) pixels += bin.pixels;
-        if (pixels == 0) return panel_->clear(tr("No pixel of the %1 can be evaluated.").arg(part));
-        for (std::size_t i = 0; i < results.size(); ++i) {
-          const QString& legend = results[i].legend;
-          squares.series.push_back(series_of(legend, profiles[i], &ErrorBin::mse_100));
-          bad.series.push_back(series_of(legend, profiles[i], &ErrorBin::bad_percent));
-        }
-        panel_->setPlots(tr("%1 · %2, %3 px")
-                             .arg(results.front().name, part,
-                                  QLocale::c().toString(static_cast<qulonglong>(pixels))),
-                         squares, bad);
-      });
+  [[nodiscard]] QString obstacle() const {
+    const auto& scene = session_.scene();
+    if (!scene) return tr("Open a light field with ground truth and run a method.");
+    if (!scene->truth->has_disparity() && !scene->truth->has_layers()) {
+      return tr("This light field has no ground truth to compare results with.");
+    }
+    if (!session_.side_a()) return tr("Run a method: its errors by true disparity appear here.");
+    if (!can_judge(*session_.side_a()->estimate, *scene, judged_view(*scene))) {
+      return tr("%1 has no map of the view with the ground truth.")
+          .arg(QString::fromStdString(session_.side_a()->name));
+    }
+    return {};
+  }
+
+  /// None while the evaluation runs.
+  [[nodiscard]] std::optional<Judged> judged(const EstimateEntry& entry) {
+    const GroundTruth& truth = *session_.scene()->truth;
+    const ViewIndex view = judged_view(*session_.scene());
+    auto evaluation = session_.evaluation({entry.id, view, Protocol::Vmv2013});
+    if (!evaluation) return std::nullopt;
+    const bool is_layered = truth.has_layers() && !entry.estimate->layered.foreground.empty();
+    const DisparityField& field = is_layered ? truth.foreground : truth.field;
+    return Judged{QString::fromStdString(entry.name), std::move(evaluation), field.view(view)};
+  }
+
+  void start(const std::vector<Judged>& results) {
+    const double threshold_px = session_.bad_threshold_px();
+    job_.start<std::vector<ErrorProfile>>(
+        [results, scene = session_.scene(), region = region_.region(),
+         threshold_px](const Progress& progress) {
+          std::vector<ErrorProfile> profiles;
+          for (const Judged& each : results) {
+            progress.check();
+            profiles.push_back(errors_by_disparity(*each.evaluation, each.truth, region.get(),
+                                                   kBins, threshold_px));
+          }
+          return profiles;
+        },
+        [this, results, threshold_px,
+         part = region_.name()](const std::vector<ErrorProfile>& profiles) {
+          const PlotAxis x{tr("True disparity [px]")};
+          Plot squares{x, {tr("MSE×100 [px²]")}, {}};
+          Plot bad{x,
+                   {tr("Bad pixels: off by more than %1 px [%]").arg(number_text(threshold_px, 2))},
+                   {}};
+          std::size_t pixels = 0;
+          for (const ErrorBin& bin : profiles.front()) pixels += bin.pixels;
+          if (pixels == 0)
+            return panel_->clear(tr("No pixel of the %1 can be evaluated.").arg(part));
+          for (std::size_t i = 0; i < results.size(); ++i) {
+            const QString& legend = results[i].legend;
+            squares.series.push_back(series_of(legend, profiles[i], &ErrorBin::mse_100));
+            bad.series.push_back(series_of(legend, profiles[i], &ErrorBin::bad_percent));
+          }
+          panel_->setPlots(tr("%1 · %2, %3 px")
+                               .arg(results.front().name, part,
+                                    QLocale::c().toString(static_cast<qulonglong>(pixels))),
+                           squares, bad);
+        });
+  }
+
+  Workbench bench_;
+  Session& session_;
+  const RegionController& region_;
+  ErrorPlotPanel* panel_;
+  LatestJob job_;
+};
+
+void add_error_plots(const Workbench& bench, const RegionController& region) {
+  new ErrorPlotController(bench, region);
 }
 
 }  // namespace episcope
 
 #include "moc_statistics_controller.cpp"
+
+#include "statistics_controller.moc"

@@ -9,7 +9,6 @@
 #include "engine/render/quantity.h"
 
 #include <QObject>
-#include <QString>
 
 #include <optional>
 #include <vector>
@@ -54,39 +53,6 @@ class StatisticsController : public QObject {
   MapChoice choice_;
   std::optional<render::RegionStatistics> statistics_;
   bool wants_range_ = false;
-};
-
-class ErrorPlotPanel;
-class RegionController;
-class Session;
-
-/// The tab of errors over true disparity, for the shown result and the one compared with it, in the
-/// evaluated region. Computed in the background, only while the tab is visible.
-class ErrorPlotController : public QObject {
-  Q_OBJECT
-
- public:
-  ErrorPlotController(const Workbench& bench, const RegionController& region);
-
- private:
-  struct Judged {
-    QString name;
-    EvaluationPtr evaluation;
-    DisparityView truth;  ///< Owned by the scene, which outlives the job.
-    QString legend{};
-  };
-
-  void update();
-  [[nodiscard]] QString obstacle() const;
-  /// None while the evaluation runs.
-  [[nodiscard]] std::optional<Judged> judged(const EstimateEntry& entry);
-  void start(const std::vector<Judged>& results);
-
-  Workbench bench_;
-  Session& session_;
-  const RegionController& region_;
-  ErrorPlotPanel* panel_;
-  LatestJob job_;
 };
 
 }  // namespace episcope

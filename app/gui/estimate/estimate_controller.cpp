@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/estimate/estimate_controller.h"
 
-#include "app/gui/estimate/method_range.h"
 #include "app/gui/estimate/result_export.h"
-#include "app/gui/estimate/sweep_controller.h"
 #include "app/gui/scene/overlay.h"
 #include "app/gui/scene/scene_opener.h"
 #include "app/gui/scene/viewer_area.h"
 #include "app/gui/shell/commands.h"
+#include "app/gui/shell/features.h"
 #include "app/gui/shell/frame.h"
 #include "app/gui/shell/jobs.h"
 #include "app/session/command_line.h"
@@ -107,11 +106,11 @@ EstimateController::EstimateController(const Workbench& bench)
   addTab();
   addCommands();
   add_measured_range(bench_, method_);
-  new MethodRange(bench_, *method_);
+  add_method_range(bench_, *method_);
   method_->setMethods(described_methods());
   addTargets();
   new LiveController(bench, *method_);
-  new SweepController(bench, *method_);
+  add_sweeps(bench, *method_);
   connect(method_, &MethodPanel::runRequested, this,
           [this](const RunRequest& request) { run(request_of(request)); });
   connect(method_, &MethodPanel::cancelRequested, this, &EstimateController::cancel);

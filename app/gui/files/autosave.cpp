@@ -5,6 +5,7 @@
 #include "app/gui/scene/scene_switcher.h"
 #include "app/gui/shell/commands.h"
 #include "app/gui/shell/dialogs.h"
+#include "app/gui/shell/features.h"
 #include "app/gui/shell/frame.h"
 #include "app/gui/shell/jobs.h"
 #include "app/session/load_scene.h"
@@ -13,6 +14,8 @@
 #include "widgets/controls/layout.h"
 #include "widgets/controls/message_bar.h"
 #include "widgets/controls/text.h"
+
+#include <QCoreApplication>
 
 #include <algorithm>
 #include <functional>
@@ -161,6 +164,10 @@ void Autosave::setProjectFile(fs::path file) {
 
 namespace {
 
+struct SessionRecoveryText {
+  Q_DECLARE_TR_FUNCTIONS(episcope::SessionRecovery)
+};
+
 std::size_t result_count(const Project& project) {
   std::size_t count = 0;
   for (const ProjectScene& scene : project.scenes) count += scene.estimates.size();
@@ -169,17 +176,17 @@ std::size_t result_count(const Project& project) {
 
 // "light fields: 2, results: 3, with scribbles: 1".
 QString content_of(const Project& project) {
-  QStringList parts{SessionRecovery::tr("light fields: %1").arg(project.scenes.size())};
+  QStringList parts{SessionRecoveryText::tr("light fields: %1").arg(project.scenes.size())};
   const auto add = [&parts](const QString& text, std::size_t count) {
     if (count > 0) parts << text.arg(count);
   };
   const auto count = [&project](auto has) {
     return static_cast<std::size_t>(std::ranges::count_if(project.scenes, has));
   };
-  add(SessionRecovery::tr("results: %1"), result_count(project));
-  add(SessionRecovery::tr("with scribbles: %1"),
+  add(SessionRecoveryText::tr("results: %1"), result_count(project));
+  add(SessionRecoveryText::tr("with scribbles: %1"),
       count([](const ProjectScene& scene) { return !scene.strokes.empty(); }));
-  add(SessionRecovery::tr("with labels: %1"),
+  add(SessionRecoveryText::tr("with labels: %1"),
       count([](const ProjectScene& scene) { return !scene.labels.empty(); }));
   return parts.join(", ");
 }
@@ -204,101 +211,116 @@ void name_journals(Project& project, const std::filesystem::path& folder) {
 
 }  // namespace
 
-SessionRecovery::SessionRecovery(const Workbench& bench, Autosave& autosave)
-    : QObject(&bench.owner),
-      bench_(bench),
-      autosave_(autosave),
-      bar_(named("sessionRecoveryBar", new MessageBar(&bench.frame))),
-      job_(this) {
-  bench.frame.addFloating(bar_);
-  connect(&bench.frame, &Frame::started, this, &SessionRecovery::look);
-  connect(bar_, &MessageBar::closed, this, &SessionRecovery::offerNext);
-}
+/// Offers scenes, results and scribbles of a session that ended unexpectedly, in a bar that does
+/// not block. Closed without an answer, it keeps them for the next start.
+class SessionRecovery : public QObject {
+  Q_OBJECT
 
-void SessionRecovery::look() {
-  using Left = std::vector<OrphanedWorkspace>;
-  job_.start<Left>(
-      [root = autosave_.root(), journals = bench_.document.journalFolder()](const Progress&) {
-        Left left = root.empty() ? Left() : orphaned_workspaces(root);
-        std::erase_if(left, [](const OrphanedWorkspace& each) {
-          if (each.project.scenes.empty()) discard_workspace(each.folder);
-          return each.project.scenes.empty();
-        });
-        for (OrphanedWorkspace& each : left) {
-          if (!journals.empty()) name_journals(each.project, journals);
-        }
-        return left;
-      },
-      [this](Left left) {
-        left_ = std::move(left);
-        std::ranges::reverse(left_);
-        offerNext();
-      });
-}
-
-void SessionRecovery::offerNext() {
-  if (left_.empty()) {
-    bench_.frame.settle();
-    return;
+ public:
+  SessionRecovery(const Workbench& bench, Autosave& autosave)
+      : QObject(&bench.owner),
+        bench_(bench),
+        autosave_(autosave),
+        bar_(named("sessionRecoveryBar", new MessageBar(&bench.frame))),
+        job_(this) {
+    bench.frame.addFloating(bar_);
+    connect(&bench.frame, &Frame::started, this, &SessionRecovery::look);
+    connect(bar_, &MessageBar::closed, this, &SessionRecovery::offerNext);
   }
-  const OrphanedWorkspace left = left_.back();
-  left_.pop_back();
-  offer(left);
-}
 
-void SessionRecovery::offer(const OrphanedWorkspace& left) {
-  bar_->showMessage(Severity::Warning,
-                    tr("Episcope ended unexpectedly (%1). What was open can be recovered: %2.")
-                        .arg(short_text(left.last_change), content_of(left.project)),
-                    {tr("Recover"), [this, left] { takeOver(left); }},
-                    {tr("Discard…"), [this, left] { askToDiscard(left); }});
-}
-
-void SessionRecovery::askToDiscard(const OrphanedWorkspace& left) {
-  QStringList names;
-  for (const ProjectScene& scene : left.project.scenes) {
-    names << QString::fromStdString(scene.name);
-  }
-  confirm_discarding(
-      &bench_.window,
-      tr("This deletes the results that the earlier session kept: %1. Its light fields were: %2.")
-          .arg(result_count(left.project))
-          .arg(listed(names)),
-      [this, left] {
-        discard_workspace(left.folder);
-        offerNext();
-      },
-      [this, left] { offer(left); });
-}
-
-void SessionRecovery::takeOver(const OrphanedWorkspace& left) {
-  using Read = std::shared_ptr<ReadProject>;
-  job_.start<Read>(
-      [project = left.project](const Progress&) {
-        auto read = std::make_shared<ReadProject>();
-        read->project = project;
-        read_strokes(*read);
-        return read;
-      },
-      [this, left](const Read& read) {
-        const std::filesystem::path saved_as = read->project.saved_as;
-        try {
-          autosave_.takeOver(left.folder);
-        } catch (const IoError& error) {
-          bench_.messages.warn(QString::fromUtf8(error.what()));
-          return offerNext();
-        }
-        const auto kept = show_project(bench_, std::move(*read), ProjectOrigin::Crash, [this] {
-          bench_.messages.success(tr("Recovered what was open."));
+  /// Looks for workspaces in the background and offers the latest.
+  void look() {
+    using Left = std::vector<OrphanedWorkspace>;
+    job_.start<Left>(
+        [root = autosave_.root(), journals = bench_.document.journalFolder()](const Progress&) {
+          Left left = root.empty() ? Left() : orphaned_workspaces(root);
+          std::erase_if(left, [](const OrphanedWorkspace& each) {
+            if (each.project.scenes.empty()) discard_workspace(each.folder);
+            return each.project.scenes.empty();
+          });
+          for (OrphanedWorkspace& each : left) {
+            if (!journals.empty()) name_journals(each.project, journals);
+          }
+          return left;
+        },
+        [this](Left left) {
+          left_ = std::move(left);
+          std::ranges::reverse(left_);
+          offerNext();
         });
-        autosave_.setProjectFile(saved_as);
-        for (const std::filesystem::path& each : kept) {
-          // What lies elsewhere is of a project of the user's.
-          if (each.parent_path() == bench_.document.journalFolder()) discard_journal(each);
-        }
-        offerNext();
-      });
-}
+  }
+
+ private:
+  void offerNext() {
+    if (left_.empty()) {
+      bench_.frame.settle();
+      return;
+    }
+    const OrphanedWorkspace left = left_.back();
+    left_.pop_back();
+    offer(left);
+  }
+
+  void offer(const OrphanedWorkspace& left) {
+    bar_->showMessage(Severity::Warning,
+                      tr("Episcope ended unexpectedly (%1). What was open can be recovered: %2.")
+                          .arg(short_text(left.last_change), content_of(left.project)),
+                      {tr("Recover"), [this, left] { takeOver(left); }},
+                      {tr("Discard…"), [this, left] { askToDiscard(left); }});
+  }
+
+  void askToDiscard(const OrphanedWorkspace& left) {
+    QStringList names;
+    for (const ProjectScene& scene : left.project.scenes) {
+      names << QString::fromStdString(scene.name);
+    }
+    confirm_discarding(
+        &bench_.window,
+        tr("This deletes the results that the earlier session kept: %1. Its light fields were: %2.")
+            .arg(result_count(left.project))
+            .arg(listed(names)),
+        [this, left] {
+          discard_workspace(left.folder);
+          offerNext();
+        },
+        [this, left] { offer(left); });
+  }
+
+  void takeOver(const OrphanedWorkspace& left) {
+    using Read = std::shared_ptr<ReadProject>;
+    job_.start<Read>(
+        [project = left.project](const Progress&) {
+          auto read = std::make_shared<ReadProject>();
+          read->project = project;
+          read_strokes(*read);
+          return read;
+        },
+        [this, left](const Read& read) {
+          const std::filesystem::path saved_as = read->project.saved_as;
+          try {
+            autosave_.takeOver(left.folder);
+          } catch (const IoError& error) {
+            bench_.messages.warn(QString::fromUtf8(error.what()));
+            return offerNext();
+          }
+          const auto kept = show_project(bench_, std::move(*read), ProjectOrigin::Crash, [this] {
+            bench_.messages.success(tr("Recovered what was open."));
+          });
+          autosave_.setProjectFile(saved_as);
+          for (const std::filesystem::path& each : kept) {
+            // What lies elsewhere is of a project of the user's.
+            if (each.parent_path() == bench_.document.journalFolder()) discard_journal(each);
+          }
+          offerNext();
+        });
+  }
+
+  Workbench bench_;
+  Autosave& autosave_;
+  MessageBar* bar_;
+  std::vector<OrphanedWorkspace> left_;  // the one to be offered next comes last
+  LatestJob job_;
+};
 
 void read_strokes(ReadProject& read) {
   for (std::size_t i = 0; i < read.project.scenes.size(); ++i) {
@@ -381,6 +403,12 @@ std::vector<std::filesystem::path> show_project(const Workbench& bench, ReadProj
   return kept;
 }
 
+void add_session_recovery(const Workbench& bench, Autosave& autosave) {
+  new SessionRecovery(bench, autosave);
+}
+
 }  // namespace episcope
 
 #include "moc_autosave.cpp"
+
+#include "autosave.moc"

@@ -82,32 +82,6 @@ class Autosave : public QObject {
   std::unique_ptr<JobRunner> runner_;
 };
 
-class MessageBar;
-
-/// Offers scenes, results and scribbles of a session that ended unexpectedly, in a bar that does
-/// not block. Closed without an answer, it keeps them for the next start.
-class SessionRecovery : public QObject {
-  Q_OBJECT
-
- public:
-  SessionRecovery(const Workbench& bench, Autosave& autosave);
-
-  /// Looks for workspaces in the background and offers the latest.
-  void look();
-
- private:
-  void offerNext();
-  void offer(const OrphanedWorkspace& left);
-  void askToDiscard(const OrphanedWorkspace& left);
-  void takeOver(const OrphanedWorkspace& left);
-
-  Workbench bench_;
-  Autosave& autosave_;
-  MessageBar* bar_;
-  std::vector<OrphanedWorkspace> left_;  // the one to be offered next comes last
-  LatestJob job_;
-};
-
 /// A project as read by a worker.
 struct ReadProject {
   Project project;

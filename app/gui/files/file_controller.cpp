@@ -2,13 +2,13 @@
 #include "app/gui/files/file_controller.h"
 
 #include "annotation/exchange.h"
-#include "app/gui/files/start_strip.h"
 #include "app/gui/scene/document_controller.h"
 #include "app/gui/scene/scene_opener.h"
 #include "app/gui/scene/scene_switcher.h"
 #include "app/gui/scene/viewer_area.h"
 #include "app/gui/shell/commands.h"
 #include "app/gui/shell/dialogs.h"
+#include "app/gui/shell/features.h"
 #include "app/gui/shell/frame.h"
 #include "app/gui/shell/jobs.h"
 #include "app/session/load_scene.h"
@@ -159,7 +159,7 @@ FileController::FileController(const Workbench& bench)
     }
     return found;
   });
-  new StartStrip(bench, recent_menu_);
+  add_start_strip(bench, recent_menu_);
   bench.window.setAcceptDrops(true);
   bench.window.installEventFilter(this);
   connect(&bench.opener, &SceneOpener::opened, this, &FileController::remember);

@@ -7,6 +7,7 @@
 #include "app/gui/scene/scene_switcher.h"
 #include "app/gui/scene/viewer_area.h"
 #include "app/gui/shell/dialogs.h"
+#include "app/gui/shell/features.h"
 #include "app/gui/shell/frame.h"
 #include "app/session/load_scene.h"
 #include "app/session/open_scene.h"
@@ -18,6 +19,7 @@
 
 #include <QAbstractButton>
 #include <QComboBox>
+#include <QCoreApplication>
 #include <QFileInfo>
 #include <QPushButton>
 #include <QSignalBlocker>
@@ -264,251 +266,318 @@ bool has_picks(const OpenScene& scene) {
 
 }  // namespace
 
-ProjectGuard::ProjectGuard(const Workbench& bench, ProjectController& project)
-    : QObject(&bench.owner), bench_(bench), project_(project) {
-  bench.guards.add({.may_leave = [this](Leaving what) { return loss(what).empty(); },
-                    .ask = [this](Leaving what, const Continue& go_on) { ask(what, go_on); }});
-  bench.session.on_changed([this](Parts parts) {
-    if (parts.has_any(Part::Scene | Part::Scenes | Part::Estimates | Part::Capture |
-                      Part::Measured | Part::Labels)) {
-      is_settled_ = false;
-    }
-  });
-  bench.scenes.sweeps().on_changed([this] { is_settled_ = false; });
-  connect(&bench.jobs, &Jobs::added, this, [this] {
-    if (running(Leaving::Session).size() > settled_jobs_) is_settled_ = false;
-  });
-}
+/// Asks once before losing results and labels that somebody asked for, scribbles of other scenes,
+/// project changes or running work; offers to save a project.
+class ProjectGuard : public QObject {
+  Q_OBJECT
 
-ProjectGuard::Loss ProjectGuard::loss(Leaving what) const {
-  Loss loss;
-  if (is_settled_ || what == Leaving::Reading) return loss;
-  const Session& session = bench_.session;
-  const bool has_file = !project_.file().isEmpty();
-  for (const OpenScene* scene : session.scenes()) {
-    if (what == Leaving::Scene && scene->id != session.generation()) continue;
-    if (!has_file && has_picks(*scene)) loss.picked.push_back(scene->name);
-    if (!has_file && !scene->place.measured.list.empty()) loss.measured.push_back(scene->name);
-    addResults(*scene, loss);
+ public:
+  ProjectGuard(const Workbench& bench, ProjectController& project)
+      : QObject(&bench.owner), bench_(bench), project_(project) {
+    bench.guards.add({.may_leave = [this](Leaving what) { return loss(what).empty(); },
+                      .ask = [this](Leaving what, const Continue& go_on) { ask(what, go_on); }});
+    bench.session.on_changed([this](Parts parts) {
+      if (parts.has_any(Part::Scene | Part::Scenes | Part::Estimates | Part::Capture |
+                        Part::Measured | Part::Labels)) {
+        is_settled_ = false;
+      }
+    });
+    bench.scenes.sweeps().on_changed([this] { is_settled_ = false; });
+    connect(&bench.jobs, &Jobs::added, this, [this] {
+      if (running(Leaving::Session).size() > settled_jobs_) is_settled_ = false;
+    });
   }
-  for (const Sweep& sweep : bench_.scenes.sweeps().all()) {
-    const bool is_left = what != Leaving::Scene || is_of_scene(sweep, session.generation());
-    if (is_left && !sweep.is_saved && point_count(sweep) > 0) {
-      loss.results.push_back(
-          tr("sweep of %1").arg(QString::fromStdString(sweep.base.method)).toStdString());
-    }
-  }
-  for (const Jobs::Running& each : running(what)) {
-    loss.running.push_back(
-        tr("%1 (%2 %)").arg(each.title).arg(percent_done(each.fraction)).toStdString());
-  }
-  if (what != Leaving::Session) return loss;
-  loss.of_project = project_.hasChanged();
-  for (const std::uint64_t id : bench_.document.unsavedScenes()) {
-    // Alone and without a project, scribbles go to a file of their own, which is asked for later.
-    if (id == session.generation() && session.scenes().size() == 1 && !has_file) continue;
-    if (const OpenScene* scene = session.find_scene(id)) loss.scribbled.push_back(scene->name);
-  }
-  return loss;
-}
 
-void ProjectGuard::addResults(const OpenScene& scene, Loss& loss) const {
-  const auto add = [&](const QString& what) {
-    loss.results.push_back(job_title(what, scene).toStdString());
+ private:
+  using Continue = LeaveGuards::Continue;
+
+  /// What would be lost.
+  struct Loss {
+    std::vector<std::string> results;
+    std::vector<std::string> scribbled;  ///< Names of light fields,
+    std::vector<std::string> picked;     ///< of those with pairs for ground truth,
+    std::vector<std::string> measured;   ///< and of those with lines kept of EPIs.
+    bool of_project = false;             ///< Other changes of a project that has a file.
+    std::vector<std::string> running;    ///< Jobs, with their progress.
+    [[nodiscard]] bool empty() const { return !has_unsaved() && running.empty(); }
+    [[nodiscard]] bool has_unsaved() const {
+      return !results.empty() || !scribbled.empty() || !picked.empty() || !measured.empty() ||
+             of_project;
+    }
   };
-  for (const EstimateEntry& entry : scene.estimates) {
-    if (!entry.is_saved) add(QString::fromStdString(entry.name));
-  }
-  const KeptLabels& labels = scene.labels;
-  if (!labels.is_unsaved()) return;
-  add(labels.covers_many() || labels.is_on_disk_alone() ? tr("labels of all views")
-                                                        : tr("labels of one view"));
-}
 
-// A light field that is closed ends the jobs on it alone.
-std::vector<Jobs::Running> ProjectGuard::running(Leaving what) const {
-  std::vector<Jobs::Running> all;
-  for (const Lane lane : kLanesOfWork) {
-    for (Jobs::Running& each : bench_.jobs.running(lane)) {
-      const bool is_left = what != Leaving::Scene || each.scene == bench_.session.generation();
-      if (is_left && !each.is_expendable) all.push_back(std::move(each));
+  [[nodiscard]] Loss loss(Leaving what) const {
+    Loss loss;
+    if (is_settled_ || what == Leaving::Reading) return loss;
+    const Session& session = bench_.session;
+    const bool has_file = !project_.file().isEmpty();
+    for (const OpenScene* scene : session.scenes()) {
+      if (what == Leaving::Scene && scene->id != session.generation()) continue;
+      if (!has_file && has_picks(*scene)) loss.picked.push_back(scene->name);
+      if (!has_file && !scene->place.measured.list.empty()) loss.measured.push_back(scene->name);
+      addResults(*scene, loss);
     }
+    for (const Sweep& sweep : bench_.scenes.sweeps().all()) {
+      const bool is_left = what != Leaving::Scene || is_of_scene(sweep, session.generation());
+      if (is_left && !sweep.is_saved) {
+        loss.results.push_back(
+            tr("sweep of %1").arg(QString::fromStdString(sweep.base.method)).toStdString());
+      }
+    }
+    for (const Jobs::Running& each : running(what)) {
+      loss.running.push_back(
+          tr("%1 (%2 %)").arg(each.title).arg(percent_done(each.fraction)).toStdString());
+    }
+    if (what != Leaving::Session) return loss;
+    loss.of_project = project_.hasChanged();
+    for (const std::uint64_t id : bench_.document.unsavedScenes()) {
+      // Alone and without a project, scribbles go to a file of their own, which is asked for later.
+      if (id == session.generation() && session.scenes().size() == 1 && !has_file) continue;
+      if (const OpenScene* scene = session.find_scene(id)) loss.scribbled.push_back(scene->name);
+    }
+    return loss;
   }
-  return all;
-}
 
-QString ProjectGuard::sentence(const Loss& loss) {
-  QStringList sentences;
-  if (!loss.results.empty()) sentences << tr("Not saved: %1.").arg(list_of(loss.results));
-  if (!loss.scribbled.empty()) {
-    sentences << tr("Unsaved scribbles: on %1.").arg(list_of(loss.scribbled));
+  void addResults(const OpenScene& scene, Loss& loss) const {
+    const auto add = [&](const QString& what) {
+      loss.results.push_back(job_title(what, scene).toStdString());
+    };
+    for (const EstimateEntry& entry : scene.estimates) {
+      if (!entry.is_saved) add(QString::fromStdString(entry.name));
+    }
+    const KeptLabels& labels = scene.labels;
+    if (!labels.is_unsaved()) return;
+    add(labels.covers_many() || labels.is_on_disk_alone() ? tr("labels of all views")
+                                                          : tr("labels of one view"));
   }
-  if (!loss.picked.empty()) {
-    sentences << tr("Unsaved pairs of points: on %1.").arg(list_of(loss.picked));
-  }
-  if (!loss.measured.empty()) {
-    sentences << tr("Unsaved measured lines: on %1.").arg(list_of(loss.measured));
-  }
-  if (loss.of_project && sentences.isEmpty()) sentences << tr("The project has changed.");
-  if (!loss.running.empty()) {
-    sentences << tr("Still running, and would be lost: %1.").arg(list_of(loss.running));
-  }
-  return sentences.join(' ');
-}
 
-void ProjectGuard::ask(Leaving what, const Continue& go_on) {
-  const Loss lost = loss(what);
-  if (lost.empty()) {
+  // A light field that is closed ends the jobs on it alone.
+  [[nodiscard]] std::vector<Jobs::Running> running(Leaving what) const {
+    std::vector<Jobs::Running> all;
+    for (const Lane lane : kLanesOfWork) {
+      for (Jobs::Running& each : bench_.jobs.running(lane)) {
+        const bool is_left = what != Leaving::Scene || each.scene == bench_.session.generation();
+        if (is_left && !each.is_expendable) all.push_back(std::move(each));
+      }
+    }
+    return all;
+  }
+
+  [[nodiscard]] static QString sentence(const Loss& loss) {
+    QStringList sentences;
+    if (!loss.results.empty()) sentences << tr("Not saved: %1.").arg(list_of(loss.results));
+    if (!loss.scribbled.empty()) {
+      sentences << tr("Unsaved scribbles: on %1.").arg(list_of(loss.scribbled));
+    }
+    if (!loss.picked.empty()) {
+      sentences << tr("Unsaved pairs of points: on %1.").arg(list_of(loss.picked));
+    }
+    if (!loss.measured.empty()) {
+      sentences << tr("Unsaved measured lines: on %1.").arg(list_of(loss.measured));
+    }
+    if (loss.of_project && sentences.isEmpty()) sentences << tr("The project has changed.");
+    if (!loss.running.empty()) {
+      sentences << tr("Still running, and would be lost: %1.").arg(list_of(loss.running));
+    }
+    return sentences.join(' ');
+  }
+
+  void ask(Leaving what, const Continue& go_on) {
+    const Loss lost = loss(what);
+    if (lost.empty()) {
+      go_on();
+      return;
+    }
+    if (question_) {
+      question_->raise();
+      return;
+    }
+    const bool has_unsaved = lost.has_unsaved();
+    question_ = new_question_box(
+        &bench_.window, {.name = "unsaved_results",
+                         .title = has_unsaved ? tr("Unsaved work") : tr("Work is running"),
+                         .text = sentence(lost),
+                         .buttons = (has_unsaved ? QMessageBox::SaveAll : QMessageBox::NoButton) |
+                                    QMessageBox::Discard | QMessageBox::Cancel});
+    if (!has_unsaved) {
+      question_->button(QMessageBox::Discard)
+          ->setText(what == Leaving::Session ? tr("Quit anyway") : tr("Close anyway"));
+    }
+    question_->setDefaultButton(has_unsaved ? QMessageBox::SaveAll : QMessageBox::Cancel);
+    connect(question_, &QMessageBox::buttonClicked, this,
+            [this, box = question_.data(), what, go_on](QAbstractButton* button) {
+              question_ = nullptr;
+              answer(box->standardButton(button), what, go_on);
+            });
+    question_->open();
+  }
+
+  void answer(QMessageBox::StandardButton button, Leaving what, const Continue& go_on) {
+    if (button == QMessageBox::SaveAll) project_.save([this, what, go_on] { ask(what, go_on); });
+    if (button != QMessageBox::Discard) return;
+    is_settled_ = true;
+    settled_jobs_ = running(Leaving::Session).size();
+    if (what == Leaving::Session) bench_.document.discardAll();
     go_on();
-    return;
   }
-  if (question_) {
-    question_->raise();
-    return;
-  }
-  const bool has_unsaved = lost.has_unsaved();
-  question_ = new_question_box(
-      &bench_.window, {.name = "unsaved_results",
-                       .title = has_unsaved ? tr("Unsaved work") : tr("Work is running"),
-                       .text = sentence(lost),
-                       .buttons = (has_unsaved ? QMessageBox::SaveAll : QMessageBox::NoButton) |
-                                  QMessageBox::Discard | QMessageBox::Cancel});
-  if (!has_unsaved) {
-    question_->button(QMessageBox::Discard)
-        ->setText(what == Leaving::Session ? tr("Quit anyway") : tr("Close anyway"));
-  }
-  question_->setDefaultButton(has_unsaved ? QMessageBox::SaveAll : QMessageBox::Cancel);
-  connect(question_, &QMessageBox::buttonClicked, this,
-          [this, box = question_.data(), what, go_on](QAbstractButton* button) {
-            question_ = nullptr;
-            answer(box->standardButton(button), what, go_on);
-          });
-  question_->open();
-}
 
-void ProjectGuard::answer(QMessageBox::StandardButton button, Leaving what, const Continue& go_on) {
-  if (button == QMessageBox::SaveAll) project_.save([this, what, go_on] { ask(what, go_on); });
-  if (button != QMessageBox::Discard) return;
-  is_settled_ = true;
-  settled_jobs_ = running(Leaving::Session).size();
-  if (what == Leaving::Session) bench_.document.discardAll();
-  go_on();
-}
+  Workbench bench_;
+  ProjectController& project_;
+  std::size_t settled_jobs_ = 0;  // that ran when the user said so:
+  bool is_settled_ = false;       // what is there now may go
+  QPointer<QMessageBox> question_;
+};
 
 namespace {
+
+struct SceneChooserText {
+  Q_DECLARE_TR_FUNCTIONS(episcope::SceneChooser)
+};
 
 // "edge · 3 results".
 QString text_of(const OpenScene& scene) {
   const QString name = QString::fromStdString(scene.name);
   const auto count = scene.estimates.size();
   if (count == 0) return name;
-  return count == 1 ? SceneChooser::tr("%1 · 1 result").arg(name)
-                    : SceneChooser::tr("%1 · %2 results").arg(name).arg(count);
+  return count == 1 ? SceneChooserText::tr("%1 · 1 result").arg(name)
+                    : SceneChooserText::tr("%1 · %2 results").arg(name).arg(count);
 }
 
 }  // namespace
 
-SceneChooser::SceneChooser(const Workbench& bench)
-    : QObject(&bench.owner),
-      bench_(bench),
-      list_(named("scenes.open", new QComboBox(&bench.frame))) {
-  list_->setAccessibleName(tr("Open light fields"));
-  list_->setToolTip(tr("Open light fields: choose the one to show"));
-  list_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-  list_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
-  bench.frame.addToColumn(list_, false);
-  connect(list_, &QComboBox::activated, this, [this](int row) {
-    bench_.scenes.show(list_->itemData(row).toULongLong());
-    fill();  // until it is read, the one before is shown
-  });
-  addCommands();
-  connect(&bench.viewer_area, &ViewerArea::previewChanged, this, &SceneChooser::fill);
-  bench.session.on_changed([this](Parts parts) {
-    if (parts.has_any(Part::Scene | Part::Scenes | Part::Estimates)) fill();
-  });
-  fill();
-}
+/// The list of open light fields, which switches between them.
+class SceneChooser : public QObject {
+  Q_OBJECT
 
-void SceneChooser::addCommands() {
-  const auto has_several = [this] { return bench_.session.scenes().size() > 1; };
-  bench_.commands.add({.menu = Menu::View, .section = section::kTabs, .enabled = has_several},
-                      {{.id = "scenes.next",
-                        .text = tr("Next open light field"),
-                        .tip = tr("Shows the next open light field"),
-                        .keys = {tr("Ctrl+Alt+PgDown")},
-                        .run = [this] { bench_.scenes.step(1); }},
-                       {.id = "scenes.previous",
-                        .text = tr("Previous open light field"),
-                        .tip = tr("Shows the previous open light field"),
-                        .keys = {tr("Ctrl+Alt+PgUp")},
-                        .run = [this] { bench_.scenes.step(-1); }}});
-  bench_.commands.addTargets([this] {
-    std::vector<PaletteTarget> found;
+ public:
+  explicit SceneChooser(const Workbench& bench)
+      : QObject(&bench.owner),
+        bench_(bench),
+        list_(named("scenes.open", new QComboBox(&bench.frame))) {
+    list_->setAccessibleName(tr("Open light fields"));
+    list_->setToolTip(tr("Open light fields: choose the one to show"));
+    list_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    list_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+    bench.frame.addToColumn(list_, false);
+    connect(list_, &QComboBox::activated, this, [this](int row) {
+      bench_.scenes.show(list_->itemData(row).toULongLong());
+      fill();  // until it is read, the one before is shown
+    });
+    addCommands();
+    connect(&bench.viewer_area, &ViewerArea::previewChanged, this, &SceneChooser::fill);
+    bench.session.on_changed([this](Parts parts) {
+      if (parts.has_any(Part::Scene | Part::Scenes | Part::Estimates)) fill();
+    });
+    fill();
+  }
+
+ private:
+  void addCommands() {
+    const auto has_several = [this] { return bench_.session.scenes().size() > 1; };
+    bench_.commands.add({.menu = Menu::View, .section = section::kTabs, .enabled = has_several},
+                        {{.id = "scenes.next",
+                          .text = tr("Next open light field"),
+                          .tip = tr("Shows the next open light field"),
+                          .keys = {tr("Ctrl+Alt+PgDown")},
+                          .run = [this] { bench_.scenes.step(1); }},
+                         {.id = "scenes.previous",
+                          .text = tr("Previous open light field"),
+                          .tip = tr("Shows the previous open light field"),
+                          .keys = {tr("Ctrl+Alt+PgUp")},
+                          .run = [this] { bench_.scenes.step(-1); }}});
+    bench_.commands.addTargets([this] {
+      std::vector<PaletteTarget> found;
+      for (const OpenScene* scene : bench_.session.scenes()) {
+        found.push_back({tr("Open light field: %1").arg(QString::fromStdString(scene->name)),
+                         tr("Shows it: %1").arg(QString::fromStdString(scene->input)),
+                         {},
+                         [this, id = scene->id] { bench_.scenes.show(id); }});
+      }
+      return found;
+    });
+  }
+
+  void fill() {
+    const QSignalBlocker blocker(list_);
+    list_->clear();
     for (const OpenScene* scene : bench_.session.scenes()) {
-      found.push_back({tr("Open light field: %1").arg(QString::fromStdString(scene->name)),
-                       tr("Shows it: %1").arg(QString::fromStdString(scene->input)),
-                       {},
-                       [this, id = scene->id] { bench_.scenes.show(id); }});
+      list_->addItem(text_of(*scene), QVariant::fromValue<qulonglong>(scene->id));
+      list_->setItemData(list_->count() - 1, QString::fromStdString(scene->input), Qt::ToolTipRole);
     }
-    return found;
-  });
-}
-
-void SceneChooser::fill() {
-  const QSignalBlocker blocker(list_);
-  list_->clear();
-  for (const OpenScene* scene : bench_.session.scenes()) {
-    list_->addItem(text_of(*scene), QVariant::fromValue<qulonglong>(scene->id));
-    list_->setItemData(list_->count() - 1, QString::fromStdString(scene->input), Qt::ToolTipRole);
+    const bool is_opening = bench_.viewer_area.isPreviewing();
+    const auto shown = QVariant::fromValue<qulonglong>(bench_.session.generation());
+    list_->setCurrentIndex(is_opening ? -1 : list_->findData(shown));
+    const bool is_empty = list_->count() == 0;
+    list_->setEnabled(!is_empty);
+    list_->setPlaceholderText(is_opening ? tr("opening …")
+                              : is_empty ? tr("nothing is open")
+                                         : tr("none of these is shown"));
   }
-  const bool is_opening = bench_.viewer_area.isPreviewing();
-  const auto shown = QVariant::fromValue<qulonglong>(bench_.session.generation());
-  list_->setCurrentIndex(is_opening ? -1 : list_->findData(shown));
-  const bool is_empty = list_->count() == 0;
-  list_->setEnabled(!is_empty);
-  list_->setPlaceholderText(is_opening ? tr("opening …")
-                            : is_empty ? tr("nothing is open")
-                                       : tr("none of these is shown"));
-}
 
-WindowTitle::WindowTitle(const Workbench& bench, const Autosave& autosave,
-                         const ProjectController& project)
-    : QObject(&bench.owner), bench_(bench), autosave_(autosave), project_(project) {
-  connect(&bench.document, &DocumentController::unsavedChanged, this, &WindowTitle::show);
-  connect(&autosave, &Autosave::projectFileChanged, this, &WindowTitle::show);
-  bench.session.on_changed([this](Parts parts) {
-    if (parts.has_any(Part::Scene | Part::Scenes)) {
-      show();
-    } else if (parts.has_any(Part::Estimates | Part::Labels | Part::Capture)) {
-      mark();
+  Workbench bench_;
+  QComboBox* list_;
+};
+
+/// Titles the window after light field and project; a star marks unsaved scribbles or project
+/// changes.
+class WindowTitle : public QObject {
+  Q_OBJECT
+
+ public:
+  WindowTitle(const Workbench& bench, const Autosave& autosave, const ProjectController& project)
+      : QObject(&bench.owner), bench_(bench), autosave_(autosave), project_(project) {
+    connect(&bench.document, &DocumentController::unsavedChanged, this, &WindowTitle::show);
+    connect(&autosave, &Autosave::projectFileChanged, this, &WindowTitle::show);
+    bench.session.on_changed([this](Parts parts) {
+      if (parts.has_any(Part::Scene | Part::Scenes)) {
+        show();
+      } else if (parts.has_any(Part::Estimates | Part::Labels | Part::Capture)) {
+        mark();
+      }
+    });
+    bench.scenes.sweeps().on_changed([this] { mark(); });
+    show();
+  }
+
+ private:
+  void show() {
+    QStringList parts;
+    if (const LightFieldPtr light_field = bench_.session.light_field()) {
+      parts << QString::fromStdString(light_field->info().name);
     }
-  });
-  bench.scenes.sweeps().on_changed([this] { mark(); });
-  show();
-}
-
-void WindowTitle::show() {
-  QStringList parts;
-  if (const LightFieldPtr light_field = bench_.session.light_field()) {
-    parts << QString::fromStdString(light_field->info().name);
+    if (const std::string file = autosave_.projectFile().filename().string(); !file.empty()) {
+      parts << QString::fromStdString(file);
+    }
+    if (!parts.isEmpty()) parts.front() += "[*]";
+    bench_.window.setWindowTitle((parts << QStringLiteral("Episcope")).join(QStringLiteral(" — ")));
+    mark();
   }
-  if (const std::string file = autosave_.projectFile().filename().string(); !file.empty()) {
-    parts << QString::fromStdString(file);
-  }
-  if (!parts.isEmpty()) parts.front() += "[*]";
-  bench_.window.setWindowTitle((parts << QStringLiteral("Episcope")).join(QStringLiteral(" — ")));
-  mark();
-}
 
-void WindowTitle::mark() {
-  const bool has_file = !autosave_.projectFile().empty();
-  const bool is_unsaved = has_file
-                              ? project_.hasChanged() || !bench_.document.unsavedScenes().empty()
-                              : bench_.document.hasUnsavedChanges();
-  // The mark has a place where there is a name.
-  bench_.window.setWindowModified(is_unsaved && bench_.window.windowTitle().contains("[*]"));
+  void mark() {
+    const bool has_file = !autosave_.projectFile().empty();
+    const bool is_unsaved = has_file
+                                ? project_.hasChanged() || !bench_.document.unsavedScenes().empty()
+                                : bench_.document.hasUnsavedChanges();
+    // The mark has a place where there is a name.
+    bench_.window.setWindowModified(is_unsaved && bench_.window.windowTitle().contains("[*]"));
+  }
+
+  Workbench bench_;
+  const Autosave& autosave_;
+  const ProjectController& project_;
+};
+
+void add_project(const Workbench& bench) {
+  auto* autosave = new Autosave(bench);
+  auto* project = new ProjectController(bench, *autosave);
+  new ProjectGuard(bench, *project);
+  add_session_recovery(bench, *autosave);
+  new SceneChooser(bench);
+  new WindowTitle(bench, *autosave, *project);
 }
 
 }  // namespace episcope
 
 #include "moc_project_controller.cpp"
+
+#include "project_controller.moc"

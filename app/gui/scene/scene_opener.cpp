@@ -202,7 +202,8 @@ void SceneOpener::open(const QString& input_as_given, std::function<void()> then
     return;
   }
   if (const std::uint64_t open = session_.scene_of(input.toStdString())) {
-    forgetFailure();
+    failed_input_.clear();
+    emit changed();
     scenes_.show(open, std::move(then));
     return;
   }
@@ -316,7 +317,7 @@ void SceneOpener::leave(const Load& load, const std::function<void()>& go_on) {
 
 void SceneOpener::start(const Load& load) {
   jobs_.cancelLane(Lane::Open);
-  forgetFailure();
+  failed_input_.clear();
   const quint64 number = ++number_;
   loading_name_ = short_name(load.input);
   last_failure_.clear();
@@ -382,14 +383,8 @@ void SceneOpener::showLoading(quint64 job, double fraction) {
   viewer_area_.canvas()->showLoading(loading_name_, fraction);
 }
 
-void SceneOpener::forgetFailure() {
-  if (told_failure_.isEmpty()) return;
-  failed_input_.clear();
-  emit failureIsOver(std::exchange(told_failure_, QString()));
-  emit changed();
-}
-
 void SceneOpener::finish(const Load& load, const ScenePtr& scene) {
+  emit failureIsOver(told_failures_.take(load.input));
   if (load.is_added) {
     session_.add(scene, load.input.toStdString());
   } else {
@@ -414,18 +409,19 @@ void SceneOpener::end(quint64 number, const Load& load) {
 
 // In one place: where the view would be, else over it.
 void SceneOpener::tellFailure(const Load& load) {
-  told_failure_ = last_failure_;
+  QString told = last_failure_;
   if (io::is_image_name(load.input.toStdString())) {
-    told_failure_ += ' ' + tr("The raw picture of a plenoptic camera is opened in the tab Capture, "
-                              "on the page “Raw picture”.");
+    told += ' ' + tr("The raw picture of a plenoptic camera is opened in the tab Capture, "
+                     "on the page “Raw picture”.");
   }
   if (!session_.scene()) {
     emit failureIsOver(last_failure_);
-    viewer_area_.canvas()->showError(told_failure_);
+    viewer_area_.canvas()->showError(told);
   } else if (!has_asked_) {
-    emit failed(told_failure_);
+    emit failureIsOver(std::exchange(told_failures_[load.input], told));
+    emit failed(told);
   }
-  if (load.otherwise && !has_asked_) load.otherwise(told_failure_);
+  if (load.otherwise && !has_asked_) load.otherwise(told);
 }
 
 void SceneOpener::keepBuiltin(const QString& input) {

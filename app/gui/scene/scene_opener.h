@@ -7,6 +7,7 @@
 #include "engine/core/parameter.h"
 #include "engine/io/models/open_options.h"
 
+#include <QHash>
 #include <QObject>
 #include <QString>
 
@@ -72,7 +73,7 @@ class SceneOpener : public QObject {
   void isProject(const QString& path, const std::function<void()>& then);
   /// An input could not be opened; `sentence` is for the user.
   void failed(const QString& sentence);
-  /// This failure no longer matters, as another input is being opened, or is shown elsewhere.
+  /// This input was opened after all, or its failure is shown elsewhere.
   void failureIsOver(const QString& sentence);
 
  private:
@@ -97,7 +98,6 @@ class SceneOpener : public QObject {
   void tellFailure(const Load& load);
   void ask(const Load& load, const io::Undecided& question);
   void keepBuiltin(const QString& input);
-  void forgetFailure();
 
   Session& session_;
   Jobs& jobs_;
@@ -110,8 +110,8 @@ class SceneOpener : public QObject {
   QString loading_name_;
   bool has_asked_ = false;  // whether it waits for an answer
   QString last_failure_;
-  QString told_failure_;  // of the last load that failed, until another begins
-  QString failed_input_;  // asked for last, and not to be read
+  QHash<QString, QString> told_failures_;  // by inputs
+  QString failed_input_;                   // asked for last, and not to be read
 };
 
 /// Whether this opens a built-in scene.

@@ -284,7 +284,7 @@ void ResultOpener::offer(Request request) {
 
 void ResultOpener::offerReading(const Request& request, const io::BetterReading& better,
                                 int misread) {
-  const QString finding = QString::fromStdString(better_reading_finding(better));
+  const QString finding = finding_words(better_reading_finding(better));
   const QString name = QFileInfo(request.path).fileName();
   Request again = request;
   again.reading = better.reading;

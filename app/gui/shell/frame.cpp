@@ -9,6 +9,7 @@
 
 #include <QEvent>
 #include <QMenu>
+#include <QPointer>
 #include <QSplitter>
 #include <QTabBar>
 #include <QTabWidget>
@@ -19,6 +20,80 @@
 #include <utility>
 
 namespace episcope {
+namespace {
+
+constexpr int kWidest = 760;  // longer lines are hard to read
+
+int height_of(const QWidget& widget, int width) {
+  return widget.hasHeightForWidth() ? widget.heightForWidth(width) : widget.sizeHint().height();
+}
+
+}  // namespace
+
+/// Floats widgets at the top of an area, below its captions and below each other, each as high as
+/// it needs to be, so that nothing moves when they come and go.
+class Floating : public QObject {
+  Q_OBJECT
+
+ public:
+  /// `parent` becomes the widgets' parent and outlives this.
+  explicit Floating(QWidget& parent) : QObject(&parent), parent_(parent) { setArea(&parent); }
+
+  /// Lets the widgets float over this descendant of the parent; the default is the parent.
+  void setArea(QWidget* area) {
+    area_ = area;
+    area->installEventFilter(this);
+    place();
+  }
+
+  /// Adds a widget below the others and reparents it.
+  void add(QWidget* widget) {
+    const bool was_hidden = widget->isHidden();
+    widget->setParent(&parent_);
+    widget->setVisible(!was_hidden);
+    widget->installEventFilter(this);
+    widgets_.emplace_back(widget);
+    place();
+  }
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override {
+    switch (event->type()) {
+      case QEvent::Resize:
+      case QEvent::Move:
+        if (watched == area_) place();
+        break;
+      case QEvent::Show:
+      case QEvent::Hide:
+      case QEvent::LayoutRequest:
+        if (watched != area_) place();
+        break;
+      default:
+        break;
+    }
+    return false;
+  }
+
+ private:
+  void place() {
+    if (!area_) return;
+    const int width = std::min(kWidest, area_->width() - 2 * theme::kMargin);
+    const int top = qCeil(caption_depth(QFontMetricsF(parent_.font()))) + theme::kSpacing;
+    QPoint corner = area_->mapTo(&parent_, QPoint((area_->width() - width) / 2, top));
+    for (QWidget* widget : widgets_) {
+      if (!widget || widget->isHidden()) continue;
+      const int height = height_of(*widget, width);
+      widget->setGeometry(QRect(corner, QSize(width, height)));
+      widget->raise();
+      corner.ry() += height + theme::kSpacing;
+    }
+  }
+
+  QWidget& parent_;
+  QPointer<QWidget> area_;
+  std::vector<QPointer<QWidget>> widgets_;
+};
+
 namespace {
 
 constexpr int kColumnWidth = 205;
@@ -283,66 +358,6 @@ QString Frame::shownTab() const {
   return tab ? tab->id : QString();
 }
 
-namespace {
-
-constexpr int kWidest = 760;  // longer lines are hard to read
-
-int height_of(const QWidget& widget, int width) {
-  return widget.hasHeightForWidth() ? widget.heightForWidth(width) : widget.sizeHint().height();
-}
-
-}  // namespace
-
-Floating::Floating(QWidget& parent) : QObject(&parent), parent_(parent) {
-  setArea(&parent);
-}
-
-void Floating::setArea(QWidget* area) {
-  area_ = area;
-  area->installEventFilter(this);
-  place();
-}
-
-void Floating::add(QWidget* widget) {
-  const bool was_hidden = widget->isHidden();
-  widget->setParent(&parent_);
-  widget->setVisible(!was_hidden);
-  widget->installEventFilter(this);
-  widgets_.emplace_back(widget);
-  place();
-}
-
-bool Floating::eventFilter(QObject* watched, QEvent* event) {
-  switch (event->type()) {
-    case QEvent::Resize:
-    case QEvent::Move:
-      if (watched == area_) place();
-      break;
-    case QEvent::Show:
-    case QEvent::Hide:
-    case QEvent::LayoutRequest:
-      if (watched != area_) place();
-      break;
-    default:
-      break;
-  }
-  return false;
-}
-
-void Floating::place() {
-  if (!area_) return;
-  const int width = std::min(kWidest, area_->width() - 2 * theme::kMargin);
-  const int top = qCeil(caption_depth(QFontMetricsF(parent_.font()))) + theme::kSpacing;
-  QPoint corner = area_->mapTo(&parent_, QPoint((area_->width() - width) / 2, top));
-  for (QWidget* widget : widgets_) {
-    if (!widget || widget->isHidden()) continue;
-    const int height = height_of(*widget, width);
-    widget->setGeometry(QRect(corner, QSize(width, height)));
-    widget->raise();
-    corner.ry() += height + theme::kSpacing;
-  }
-}
-
 Messages::Messages(Frame& frame, Session& session) : bar_(new MessageBar(&frame)) {
   frame.addFloating(bar_);
   session.on_changed([this](Parts parts) {
@@ -369,3 +384,5 @@ bool Messages::isShown(const QString& sentence) const {
 }  // namespace episcope
 
 #include "moc_frame.cpp"
+
+#include "frame.moc"

@@ -5,7 +5,6 @@
 
 #include <QKeySequence>
 #include <QObject>
-#include <QPointer>
 #include <QString>
 #include <QVBoxLayout>
 #include <QWidget>
@@ -128,31 +127,6 @@ class Frame : public QWidget {
   std::vector<Tab> tabs_;
   std::map<QString, QTabWidget*> pages_;  // of tasks
   Panes* panes_;
-};
-
-/// Floats widgets at the top of an area, below its captions and below each other, each as high as
-/// it needs to be, so that nothing moves when they come and go.
-class Floating : public QObject {
-  Q_OBJECT
-
- public:
-  /// `parent` becomes the widgets' parent and outlives this.
-  explicit Floating(QWidget& parent);
-
-  /// Lets the widgets float over this descendant of the parent; the default is the parent.
-  void setArea(QWidget* area);
-  /// Adds a widget below the others and reparents it.
-  void add(QWidget* widget);
-
- protected:
-  bool eventFilter(QObject* watched, QEvent* event) override;
-
- private:
-  void place();
-
-  QWidget& parent_;
-  QPointer<QWidget> area_;
-  std::vector<QPointer<QWidget>> widgets_;
 };
 
 /// Messages for the user that float over the view and do not block.

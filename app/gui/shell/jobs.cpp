@@ -63,8 +63,6 @@ quint64 Jobs::adopt(const QString& title, std::function<void()> cancel) {
 }
 
 quint64 Jobs::add(const QString& title, std::optional<Lane> lane) {
-  const bool reads = lane == Lane::Open || lane == Lane::Load;
-  if (reads) emit failureIsOver(std::exchange(failure_of_reading_, {}));
   jobs_[++last_id_] = {.lane = lane, .title = title};
   emit added(last_id_, title);
   return last_id_;
@@ -93,7 +91,7 @@ void Jobs::tellProgress() {
 }
 
 void Jobs::finish(quint64 id, const std::exception_ptr& failure) {
-  const auto [lane, title] = std::pair(jobs_[id].lane, jobs_[id].title);
+  const QString title = jobs_[id].title;
   jobs_.erase(id);
   emit removed(id);
   if (!failure) return;
@@ -101,7 +99,7 @@ void Jobs::finish(quint64 id, const std::exception_ptr& failure) {
   const QString named = with_conventions(reason);
   QString sentence = tr("%1 failed: %2").arg(title, named);
   if (named != reason) sentence = tr("%1. Set this in “Conventions…”.").arg(sentence);
-  if (lane == Lane::Open || lane == Lane::Load) failure_of_reading_ = sentence;
+  failures_[title] = sentence;
   emit failed(sentence, id);
 }
 
@@ -169,9 +167,8 @@ bool JobCancel::cancelNewest() {
 void JobCancel::cancel(const std::vector<quint64>& ids) {
   const auto longest = longestOf(ids);
   if (!longest) return;
-  if (longest->seconds < worth_asking_s_) {
-    for (const quint64 id : ids) jobs_.cancel(id);
-  } else if (asked_ == longest->id && messages_.isShown(question_)) {
+  const bool is_answer = asked_ == longest->id && messages_.isShown(question_);
+  if (is_answer || longest->seconds < worth_asking_s_) {
     end(ids, *longest);
   } else {
     ask(ids, *longest);

@@ -6,6 +6,7 @@
 #include "engine/core/parallel.h"
 
 #include <QElapsedTimer>
+#include <QHash>
 #include <QObject>
 #include <QString>
 #include <QTimer>
@@ -59,7 +60,10 @@ class Jobs : public QObject {
                },
                [this, id, done = std::move(done), ended = std::move(ended)](Outcome<T> outcome) {
                  setExpendable(id);  // there is nothing left to lose
-                 if (outcome.value) done(std::move(*outcome.value));
+                 if (outcome.value) {
+                   emit failureIsOver(failures_.take(jobs_[id].title));
+                   done(std::move(*outcome.value));
+                 }
                  finish(id, outcome.failure);
                  if (ended) ended();
                },
@@ -115,7 +119,7 @@ class Jobs : public QObject {
   void removed(quint64 id);
   /// A job failed; `sentence` is for the user.
   void failed(const QString& sentence, quint64 id);
-  /// Something else is being read, so that this failure to read no longer matters.
+  /// What failed with this sentence has succeeded. Empty: nothing had failed.
   void failureIsOver(const QString& sentence);
 
  private:
@@ -140,8 +144,8 @@ class Jobs : public QObject {
 
   std::map<quint64, Job> jobs_;
   quint64 last_id_ = 0;
-  QString failure_of_reading_;  // the last
-  QTimer progress_;             // Runs for a while after progress was told.
+  QHash<QString, QString> failures_;  // sentences by titles
+  QTimer progress_;                   // Runs for a while after progress was told.
   std::array<std::unique_ptr<JobRunner>, static_cast<std::size_t>(Lane::Count)> runners_;
 };
 

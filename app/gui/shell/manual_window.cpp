@@ -5,6 +5,7 @@
 #include "widgets/controls/theme.h"
 
 #include <QCoreApplication>
+#include <QDialog>
 #include <QDir>
 #include <QFile>
 #include <QFileInfo>
@@ -23,6 +24,10 @@
 
 namespace episcope {
 namespace {
+
+struct ManualWindowText {
+  Q_DECLARE_TR_FUNCTIONS(episcope::ManualWindow)
+};
 
 constexpr QSize kFirstSize(860, 720);
 constexpr const char* kContents = "index.md";
@@ -72,8 +77,8 @@ QString hits_of(const QString& typed) {
   QString hits;
   const QFileInfoList pages = QDir(manual_folder()).entryInfoList({"*.md"}, QDir::Files);
   for (const QFileInfo& page : pages) hits += hits_in(page.filePath(), words);
-  if (hits.isEmpty()) hits = ManualWindow::tr("No paragraph has all of these words.");
-  return "# " + ManualWindow::tr("Search: %1").arg(typed.toHtmlEscaped()) + "\n\n" + hits;
+  if (hits.isEmpty()) hits = ManualWindowText::tr("No paragraph has all of these words.");
+  return "# " + ManualWindowText::tr("Search: %1").arg(typed.toHtmlEscaped()) + "\n\n" + hits;
 }
 
 /// Also makes the pages of hits, so that one can go back to them.
@@ -101,72 +106,91 @@ QString manual_folder() {
   return {};
 }
 
-ManualWindow::ManualWindow(QWidget* parent)
-    : QDialog(parent),
-      pages_(named("manual.pages", new Pages(this))),
-      words_(named("manual.search", new QLineEdit(this))) {
-  setObjectName("manual");
-  pages_->setAccessibleName(tr("Page of the manual"));
-  pages_->setOpenExternalLinks(true);
-  auto* contents = named("manual.contents", new QPushButton(tr("Contents"), this));
-  auto* back = named("manual.back", new QPushButton(tr("Back"), this));
-  back->setEnabled(false);
-  auto* row = new QHBoxLayout;
-  for (auto* button : {contents, back}) {
-    button->setAutoDefault(false);
-    row->addWidget(button);
+/// Shows pages of the manual, which are Markdown, follows their links, goes back, and lists the
+/// paragraphs that have all words of a search. Pages of the web open in the browser. Does not
+/// block.
+class ManualWindow : public QDialog {
+  Q_OBJECT
+
+ public:
+  explicit ManualWindow(QWidget* parent)
+      : QDialog(parent),
+        pages_(named("manual.pages", new Pages(this))),
+        words_(named("manual.search", new QLineEdit(this))) {
+    setObjectName("manual");
+    pages_->setAccessibleName(tr("Page of the manual"));
+    pages_->setOpenExternalLinks(true);
+    auto* contents = named("manual.contents", new QPushButton(tr("Contents"), this));
+    auto* back = named("manual.back", new QPushButton(tr("Back"), this));
+    back->setEnabled(false);
+    auto* row = new QHBoxLayout;
+    for (auto* button : {contents, back}) {
+      button->setAutoDefault(false);
+      row->addWidget(button);
+    }
+    words_->setPlaceholderText(tr("Search the manual"));
+    words_->setAccessibleName(words_->placeholderText());
+    words_->setClearButtonEnabled(true);
+    row->addWidget(words_, 1);
+    make_column(this, {row, {pages_, 1}}, {.margins = kStyleMargins, .spacing = theme::kSpacing});
+    connect(contents, &QPushButton::clicked, this, [this] { open(kContents); });
+    connect(back, &QPushButton::clicked, pages_, &QTextBrowser::backward);
+    connect(pages_, &QTextBrowser::backwardAvailable, back, &QPushButton::setEnabled);
+    connect(words_, &QLineEdit::returnPressed, this, &ManualWindow::search);
+    connect(new QShortcut(QKeySequence::Find, this), &QShortcut::activated, words_,
+            [this] { words_->setFocus(); });
+    connect(pages_, &QTextBrowser::sourceChanged, this, &ManualWindow::showTitle);
+    connect(pages_, &QTextBrowser::sourceChanged, this, &ManualWindow::showWord);
+    resize(kFirstSize);
   }
-  words_->setPlaceholderText(tr("Search the manual"));
-  words_->setAccessibleName(words_->placeholderText());
-  words_->setClearButtonEnabled(true);
-  row->addWidget(words_, 1);
-  make_column(this, {row, {pages_, 1}}, {.margins = kStyleMargins, .spacing = theme::kSpacing});
-  connect(contents, &QPushButton::clicked, this, [this] { open(kContents); });
-  connect(back, &QPushButton::clicked, pages_, &QTextBrowser::backward);
-  connect(pages_, &QTextBrowser::backwardAvailable, back, &QPushButton::setEnabled);
-  connect(words_, &QLineEdit::returnPressed, this, &ManualWindow::search);
-  connect(new QShortcut(QKeySequence::Find, this), &QShortcut::activated, words_,
-          [this] { words_->setFocus(); });
-  connect(pages_, &QTextBrowser::sourceChanged, this, &ManualWindow::showTitle);
-  connect(pages_, &QTextBrowser::sourceChanged, this, &ManualWindow::showWord);
-  resize(kFirstSize);
-}
 
-void ManualWindow::open(const QString& page) {
-  const QString folder = manual_folder();
-  if (folder.isEmpty()) {
-    pages_->setPlainText(
-        tr("The pages of the manual are not installed with the program, in "
-           "share/episcope/manual. Install it anew."));
-  } else {
-    pages_->setSource(QUrl::fromLocalFile(QDir(folder).filePath(page)),
-                      QTextDocument::MarkdownResource);
+  /// Shows a page by its name, "window.md", at its beginning.
+  void open(const QString& page) {
+    const QString folder = manual_folder();
+    if (folder.isEmpty()) {
+      pages_->setPlainText(
+          tr("The pages of the manual are not installed with the program, in "
+             "share/episcope/manual. Install it anew."));
+    } else {
+      pages_->setSource(QUrl::fromLocalFile(QDir(folder).filePath(page)),
+                        QTextDocument::MarkdownResource);
+    }
+    showTitle();
+    show();
+    raise();
+    activateWindow();
   }
-  showTitle();
-  show();
-  raise();
-  activateWindow();
-}
 
-void ManualWindow::search() {
-  const QString words = words_->text().simplified();
-  if (words.isEmpty()) return;
-  QUrl hits;
-  hits.setScheme(kSearch);
-  hits.setPath(words, QUrl::DecodedMode);
-  pages_->setSource(hits, QTextDocument::MarkdownResource);
-}
+ private:
+  void search() {
+    const QString words = words_->text().simplified();
+    if (words.isEmpty()) return;
+    QUrl hits;
+    hits.setScheme(kSearch);
+    hits.setPath(words, QUrl::DecodedMode);
+    pages_->setSource(hits, QTextDocument::MarkdownResource);
+  }
 
-void ManualWindow::showTitle() {
-  const QString heading = pages_->document()->firstBlock().text();
-  setWindowTitle(heading.isEmpty() ? tr("Manual") : tr("%1 — Manual").arg(heading));
-}
+  void showTitle() {
+    const QString heading = pages_->document()->firstBlock().text();
+    setWindowTitle(heading.isEmpty() ? tr("Manual") : tr("%1 — Manual").arg(heading));
+  }
 
-void ManualWindow::showWord(const QUrl& page) {
-  const QString word = words_->text().simplified().section(' ', 0, 0);
-  if (!word.isEmpty() && page.scheme() != kSearch) pages_->find(word);
+  /// Goes to the first word of the search on a page that it found.
+  void showWord(const QUrl& page) {
+    const QString word = words_->text().simplified().section(' ', 0, 0);
+    if (!word.isEmpty() && page.scheme() != kSearch) pages_->find(word);
+  }
+
+  QTextBrowser* pages_;
+  QLineEdit* words_;
+};
+
+std::function<void()> make_manual(QWidget& window) {
+  auto* manual = new ManualWindow(&window);
+  return [manual] { manual->open(kContents); };
 }
 
 }  // namespace episcope
 
-#include "moc_manual_window.cpp"
+#include "manual_window.moc"

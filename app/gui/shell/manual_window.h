@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <QDialog>
+#include "app/gui/shell/workbench.h"
+
 #include <QString>
 
-class QLineEdit;
-class QTextBrowser;
-class QUrl;
+#include <functional>
+
+class QWidget;
 
 namespace episcope {
 
@@ -14,26 +15,11 @@ namespace episcope {
 /// program runs from, else of the system. Empty if there is none.
 [[nodiscard]] QString manual_folder();
 
-/// Shows pages of the manual, which are Markdown, follows their links, goes back, and lists the
-/// paragraphs that have all words of a search. Pages of the web open in the browser. Does not
-/// block.
-class ManualWindow : public QDialog {
-  Q_OBJECT
+/// Shows the contents of the manual in a window beside `window`. The pages are Markdown; one can
+/// follow links, go back, and search. Does not block.
+[[nodiscard]] std::function<void()> make_manual(QWidget& window);
 
- public:
-  explicit ManualWindow(QWidget* parent);
-
-  /// Shows a page by its name, "window.md", at its beginning.
-  void open(const QString& page);
-
- private:
-  void search();
-  void showTitle();
-  /// Goes to the first word of the search on a page that it found.
-  void showWord(const QUrl& page);
-
-  QTextBrowser* pages_;
-  QLineEdit* words_;
-};
+/// The commands of the menu Help: the manual, keys, the palette of commands, and facts.
+void add_help(const Workbench& bench);
 
 }  // namespace episcope

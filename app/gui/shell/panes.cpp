@@ -26,6 +26,31 @@
 #include <utility>
 
 namespace episcope {
+/// Window of a detached pane.
+class PaneWindow : public QWidget {
+  Q_OBJECT
+
+ public:
+  /// Takes the widget and stays above `owner`.
+  // A tool window, so that the keys of its owner are heard in it.
+  PaneWindow(QWidget* widget, const QString& title, QWidget* owner)
+      : QWidget(owner, Qt::Tool | Qt::WindowMaximizeButtonHint | Qt::WindowCloseButtonHint) {
+    setWindowTitle(title);
+    make_column(this, {widget});
+    widget->show();
+  }
+
+ signals:
+  /// The user closed the window, which still holds the pane.
+  void closed();
+
+ protected:
+  void closeEvent(QCloseEvent* event) override {
+    event->accept();
+    emit closed();
+  }
+};
+
 namespace {
 
 constexpr const char* kTorn = "layout/torn";
@@ -157,19 +182,6 @@ void Panes::reset() {
   QSettings().remove(kTorn);
   QSettings().remove(kStacked);
   QSettings().remove("layout/place");
-}
-
-// A tool window, so that the keys of its owner are heard in it.
-PaneWindow::PaneWindow(QWidget* widget, const QString& title, QWidget* owner)
-    : QWidget(owner, Qt::Tool | Qt::WindowMaximizeButtonHint | Qt::WindowCloseButtonHint) {
-  setWindowTitle(title);
-  make_column(this, {widget});
-  widget->show();
-}
-
-void PaneWindow::closeEvent(QCloseEvent* event) {
-  event->accept();
-  emit closed();
 }
 
 bool is_divided_by_itself(const QSplitter& splitter) {
@@ -415,3 +427,5 @@ void KeyboardHome::goHomeFromControls() {
 }  // namespace episcope
 
 #include "moc_panes.cpp"
+
+#include "panes.moc"

@@ -84,22 +84,6 @@ class Panes : public QObject {
   QStringList stacked_;
 };
 
-/// Window of a detached pane.
-class PaneWindow : public QWidget {
-  Q_OBJECT
-
- public:
-  /// Takes the widget and stays above `owner`.
-  PaneWindow(QWidget* widget, const QString& title, QWidget* owner);
-
- signals:
-  /// The user closed the window, which still holds the pane.
-  void closed();
-
- protected:
-  void closeEvent(QCloseEvent* event) override;
-};
-
 /// Tells of each new size once its parts are in their places.
 class ToldSplitter : public QSplitter {
  public:

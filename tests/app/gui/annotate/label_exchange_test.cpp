@@ -13,6 +13,7 @@
 #include "tests/window_test_main.h"
 #include "widgets/controls/message_bar.h"
 
+#include <QCheckBox>
 #include <QComboBox>
 #include <QDialog>
 #include <QDir>
@@ -94,6 +95,8 @@ class LabelExchangeTest : public QObject {
   void largeIds_areRenumbered();
   void foreignFiles_areRefusedInWords();
   void dropOnAnnotate_asks();
+  void lightFieldOnAnnotate_isOpened();
+  void zero_isALabelAtWish();
   void everyForm_isExported_data();
   void everyForm_isExported();
   void outOfDateLabels_areTold();
@@ -393,6 +396,38 @@ void LabelExchangeTest::dropOnAnnotate_asks() {
 
   QTRY_VERIFY(f.part<QDialog>("importLabels"));
   f.part<QDialog>("importLabels")->close();
+}
+
+void LabelExchangeTest::lightFieldOnAnnotate_isOpened() {
+  Exchanging f;
+  f.window.bench().frame.showTab("annotate");
+  QMimeData data;
+  data.setUrls({QUrl::fromLocalFile(f.writeScene("objects", WindowFixture::smallOptions()))});
+  QDropEvent drop(QPointF(50, 50), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+
+  QCoreApplication::sendEvent(&f.window, &drop);
+
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().session.scenes().size(), std::size_t{2}, kPatience);
+  QVERIFY(!f.part<QDialog>("importLabels"));
+}
+
+void LabelExchangeTest::zero_isALabelAtWish() {
+  Exchanging f;
+  f.importer().open({f.drawn("ids.png", 255)});
+  QTRY_VERIFY(f.part<QLineEdit>("importLabels.ignored"));
+  auto* ignored = f.part<QLineEdit>("importLabels.ignored");
+  QTest::keyClicks(ignored, "255");
+  QTest::keyClick(ignored, Qt::Key_Tab);
+  const auto* notes = f.part<QLabel>("importLabels.notes");
+  QTRY_VERIFY2(notes->text().contains("“0 is a label” makes it a label"),
+               qPrintable(notes->text()));
+
+  f.part<QCheckBox>("importLabels.zero")->click();
+
+  QTRY_VERIFY2(!notes->text().contains("makes it a label"), qPrintable(notes->text()));
+  f.accept("strokes");
+  QTRY_COMPARE(f.labelAt({40, 40}), 2);
+  QCOMPARE(f.labelAt({10, 10}), 1);
 }
 
 void LabelExchangeTest::everyForm_isExported_data() {

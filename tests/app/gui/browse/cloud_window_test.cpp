@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/gui/browse/cloud_controller.h"
 #include "app/gui/shell/panes.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"

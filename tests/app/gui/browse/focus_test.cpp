@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/gui/browse/focus_controller.h"
 
 #include "app/gui/scene/document_controller.h"
 #include "app/gui/shell/commands.h"

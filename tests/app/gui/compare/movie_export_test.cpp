@@ -4,7 +4,6 @@
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
 #include "widgets/canvas/view_canvas.h"
-#include "widgets/panels/movie_panel.h"
 
 #include <QApplication>
 #include <QCheckBox>

@@ -93,6 +93,8 @@ class SweepWindowTest : public QObject {
   void sweeps_areListed_andRemoved();
   void sweeps_comeBackWithTheProject();
   void sweep_isAskedForBeforeItIsLost();
+  void sweepWithoutAPoint_isAskedForBeforeItIsLost();
+  void shownPoint_isNotAskedForBesideItsSweep();
 };
 
 void SweepWindowTest::run_plotsEveryValue() {
@@ -399,6 +401,44 @@ void SweepWindowTest::sweep_isAskedForBeforeItIsLost() {
   QVERIFY(f.window.isVisible());
   box->button(QMessageBox::Discard)->click();
   QTRY_VERIFY(!f.window.isVisible());
+}
+
+void SweepWindowTest::sweepWithoutAPoint_isAskedForBeforeItIsLost() {
+  Sweeping f;
+  f.vary("sweep.first", "inner_scale", "0.6, 1.2");
+  f.click("sweep.run");
+  f.click("sweep.cancel");
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().jobs.count(), 0, kScenePatience);
+
+  f.window.close();
+
+  auto* box = f.window.findChild<QMessageBox*>("unsaved_results");
+  QVERIFY(box);
+  QVERIFY2(box->text().contains("sweep of epi_l"), qPrintable(box->text()));
+  box->button(QMessageBox::Discard)->click();
+}
+
+void SweepWindowTest::shownPoint_isNotAskedForBesideItsSweep() {
+  Sweeping f;
+  f.vary("sweep.first", "inner_scale", "0.6, 1.2");
+  f.run();
+  f.clickPoint(f.upper(), {0, 1});
+
+  f.window.close();
+
+  auto* box = f.window.findChild<QMessageBox*>("unsaved_results");
+  QVERIFY(box);
+  QCOMPARE(box->text(), QString("Not saved: sweep of epi_l."));
+  box->button(QMessageBox::Cancel)->click();
+  QTRY_VERIFY(!f.window.findChild<QMessageBox*>("unsaved_results"));
+
+  f.click("sweep.keep");
+  f.window.close();
+
+  box = f.window.findChild<QMessageBox*>("unsaved_results");
+  QVERIFY(box);
+  QVERIFY2(box->text().contains("Inner scale 1.2"), qPrintable(box->text()));
+  box->button(QMessageBox::Discard)->click();
 }
 
 }  // namespace episcope::in_sweep_window_test

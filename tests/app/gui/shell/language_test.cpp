@@ -4,6 +4,7 @@
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
 #include "widgets/controls/labels.h"
+#include "widgets/panels/label_palette.h"
 #include "widgets/panels/metric_table.h"
 
 #include <QAbstractButton>
@@ -19,6 +20,7 @@
 #include <QSignalSpy>
 #include <QTabBar>
 #include <QTabWidget>
+#include <QTreeWidget>
 
 #include <clocale>
 #include <cstdlib>
@@ -118,6 +120,7 @@ class LanguageTest : public QObject {
   void numbersOfTheCLibrary_keepThePoint();
   void whatIsCopied_isTheSameInEveryLanguage();
   void nameOfANewLabel_isTranslated();
+  void labelWithoutAName_isCalledByItsIdInEveryLanguage();
   void choice_isRemembered();
   void mnemonics_areUniqueInAMenu();
   void noText_isCut_data();
@@ -345,6 +348,21 @@ void LanguageTest::failuresOfJobs_areWholeSentences() {
   QTRY_COMPARE(failures.size(), 1);
   const QString sentence = failures[0][0].toString();
   QVERIFY2(sentence.startsWith("Öffnen von place fehlgeschlagen: "), qPrintable(sentence));
+}
+
+void LanguageTest::labelWithoutAName_isCalledByItsIdInEveryLanguage() {
+  QVERIFY(apply_language("de"));
+  LabelPalette palette;
+
+  palette.setLabels({default_label(3), {4, "tree", {1, 2, 3}}});
+
+  const auto* list = palette.findChild<QTreeWidget*>();
+  const auto count = [&](const char* name) {
+    return list->findItems(name, Qt::MatchExactly, 2).size() +
+           list->findItems(name, Qt::MatchExactly, 1).size();
+  };
+  QCOMPARE(count("Label 3"), 1);
+  QCOMPARE(count("tree"), 1);
 }
 
 }  // namespace episcope::in_language_test
