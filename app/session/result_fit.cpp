@@ -157,11 +157,14 @@ std::string map_options_text(const io::MapReading& reading) {
 }  // namespace
 
 std::string better_reading_finding(const io::BetterReading& found) {
-  const bool is_by_truth = found.as_read.mse_100.has_value();
-  return fmt::format("the map {} far better with {} ({}){}",
-                     is_by_truth ? "fits the ground truth" : "explains the views",
-                     io::reading_text(found.reading), both_numbers(found),
-                     found.is_contradicted() ? ", but the views fit it as it is" : "");
+  const std::string reading = io::reading_text(found.reading);
+  const std::string numbers = both_numbers(found);
+  if (!found.as_read.mse_100) {
+    return fmt::format(finding_text("map.nearer_to_views"), reading, numbers);
+  }
+  return found.is_contradicted()
+             ? fmt::format(finding_text("map.nearer_to_truth_alone"), reading, numbers)
+             : fmt::format(finding_text("map.nearer_to_truth"), reading, numbers);
 }
 
 std::string better_reading_text(const io::BetterReading& found) {
@@ -257,10 +260,8 @@ std::string other_view_text(const DisparityView& map, ViewIndex view, const Scen
     best = other;
   }
   if (!best) return {};
-  return fmt::format(
-      "the map fits the ground truth of view {} far better than that of view {}: MSE×100 {:.3g} "
-      "instead of {:.3g}; name the view that it is of",
-      view_text(*best), view_text(view), least, as_read);
+  return fmt::format(finding_text("map.of_other_view"), view_text(*best), view_text(view), least,
+                     as_read);
 }
 
 /// That a constant is off, unless the map would explain little without it, too; or that the map
@@ -274,10 +275,7 @@ std::string misfit_text(const DisparityView& map, const DisparityView& truth) {
   const auto poor = io::find_poor_fit(map, truth);
   const bool is_enough = !poor || without < kFarBetter * poor->constant_mse_100;
   if (std::abs(offset) >= kSmallOffset_px && without < kFarBetter * as_read && is_enough) {
-    return fmt::format(
-        "the map is off by {:+.3g} px everywhere: without that, MSE×100 would be {:.3g} instead of "
-        "{:.3g}; check which focus plane it belongs to (--focus)",
-        offset, without, as_read);
+    return fmt::format(finding_text("map.offset"), offset, without, as_read);
   }
   if (!poor) return {};
   return fmt::format(finding_text("map.poor"), poor->mse_100, poor->constant_mse_100);

@@ -363,6 +363,16 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
      "the map explains little of the ground truth: MSE×100 {:.3g} against {:.3g} of the best "
      "constant "
      "map; check its scale, units and view"},
+    {"map.of_other_view",
+     "the map fits the ground truth of view {} far better than that of view {}: MSE×100 {:.3g} "
+     "instead of {:.3g}; name the view that it is of"},
+    {"map.offset",
+     "the map is off by {:+.3g} px everywhere: without that, MSE×100 would be {:.3g} instead of "
+     "{:.3g}; check which focus plane it belongs to (--focus)"},
+    {"map.nearer_to_truth", "the map fits the ground truth far better with {} ({})"},
+    {"map.nearer_to_truth_alone",
+     "the map fits the ground truth far better with {} ({}), but the views fit it as it is"},
+    {"map.nearer_to_views", "the map explains the views far better with {} ({})"},
     {"map.views_exchanged",
      "The views of these maps seem to be stored in another order, {}: against the ground truth, "
      "MSE×100 "
@@ -462,6 +472,8 @@ inline constexpr auto kFindingTexts = std::to_array<FindingText>({
     {"labels.shapes",
      "No pixel belongs to {} in {}: the shapes are too small, outside of the picture, or covered.",
      "No pixel belongs to %1."},
+    {"labels.unknown_shapes", "Shapes of the type {} in {} cannot be read: they are left out.",
+     "Shapes of the type %1 are left out."},
     {"labels.raised_files",
      "Labels start at 0 in these files: all labels are raised by one, so that 0 means none.",
      "Labels are raised by one."},

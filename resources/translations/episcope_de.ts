@@ -2192,6 +2192,34 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
 <context>
     <name>episcope::Finding</name>
     <message>
+        <source>the map fits the ground truth of view %1 far better than that of view %2: MSE×100 %3 instead of %4; name the view that it is of</source>
+        <translation>die Karte passt weit besser zur Referenz der Ansicht %1 als zu der von Ansicht %2: MSE×100 %3 statt %4; nennen Sie die Ansicht, zu der sie gehört</translation>
+    </message>
+    <message>
+        <source>the map is off by %1 px everywhere: without that, MSE×100 would be %2 instead of %3; check which focus plane it belongs to (--focus)</source>
+        <translation>die Karte weicht überall um %1 px ab: sonst wäre MSE×100 %2 statt %3; prüfen Sie, zu welcher Fokusebene sie gehört (--focus)</translation>
+    </message>
+    <message>
+        <source>the map fits the ground truth far better with %1 (%2)</source>
+        <translation>die Karte passt weit besser zur Referenz so: %1 (%2)</translation>
+    </message>
+    <message>
+        <source>the map fits the ground truth far better with %1 (%2), but the views fit it as it is</source>
+        <translation>die Karte passt weit besser zur Referenz so: %1 (%2), aber die Ansichten passen zu ihr, wie sie ist</translation>
+    </message>
+    <message>
+        <source>the map explains the views far better with %1 (%2)</source>
+        <translation>die Karte erklärt die Ansichten weit besser so: %1 (%2)</translation>
+    </message>
+    <message>
+        <source>Shapes of the type %1 in %2 cannot be read: they are left out.</source>
+        <translation>Formen vom Typ %1 in %2 sind nicht lesbar: sie werden ausgelassen.</translation>
+    </message>
+    <message>
+        <source>Shapes of the type %1 are left out.</source>
+        <translation>Formen vom Typ %1 werden ausgelassen.</translation>
+    </message>
+    <message>
         <source>%1 % of all pixels, in %2 of %3 views, are dark where the center view is not; they are marked as not valid.</source>
         <translation>%1 % aller Pixel, in %2 von %3 Ansichten, sind dunkel, wo die mittlere Ansicht es nicht ist; sie sind als ungültig markiert.</translation>
     </message>

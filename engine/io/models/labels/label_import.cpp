@@ -370,6 +370,11 @@ void add_json(Import& import, const NamedFile& file) {
     view = named_views({picture->file_name}, import.places, import.notes).front().view;
   }
   if (!view) view = import.view_without_name(picture->file_name);
+  if (!picture->unknown.empty()) {
+    import.notes.push_back(fmt::format(finding_text("labels.unknown_shapes"),
+                                       joined(picture->unknown, ", "),
+                                       file.path.filename().string()));
+  }
   if (!picture->unseen.empty()) {
     import.notes.push_back(fmt::format(finding_text("labels.shapes"), joined(picture->unseen, ", "),
                                        file.path.filename().string()));

@@ -86,7 +86,8 @@ void draw_mask(const fs::path& path, const Json& shape, const Polygon& corners,
   }
 }
 
-void draw_shape(const fs::path& path, const Json& shape, Image<std::int32_t>& map,
+/// False if labelme knows no such shape.
+bool draw_shape(const fs::path& path, const Json& shape, Image<std::int32_t>& map,
                 std::int32_t label) {
   constexpr double kRadius = 5;  // px, of labelme's lines and points
   const std::string type = shape.value("shape_type", "polygon");
@@ -94,22 +95,25 @@ void draw_shape(const fs::path& path, const Json& shape, Image<std::int32_t>& ma
   if (corners.empty()) throw InvalidInput("a shape has no points");
   const Corner& first = corners.front();
   const Corner& last = corners.back();
-  if (type == "polygon") return fill_polygon(map, corners, label);
-  if (type == "rectangle") {
-    return fill_polygon(
-        map, {{first.x, first.y}, {last.x, first.y}, {last.x, last.y}, {first.x, last.y}}, label);
-  }
-  if (type == "circle") {
-    return draw_line(map, {first}, std::hypot(last.x - first.x, last.y - first.y), label);
-  }
-  if (type == "line" || type == "linestrip") return draw_line(map, corners, kRadius, label);
-  if (type == "point") return draw_line(map, {first}, kRadius, label);
-  if (type == "points") {
+  if (type == "polygon") {
+    fill_polygon(map, corners, label);
+  } else if (type == "rectangle") {
+    fill_polygon(map, {{first.x, first.y}, {last.x, first.y}, {last.x, last.y}, {first.x, last.y}},
+                 label);
+  } else if (type == "circle") {
+    draw_line(map, {first}, std::hypot(last.x - first.x, last.y - first.y), label);
+  } else if (type == "line" || type == "linestrip") {
+    draw_line(map, corners, kRadius, label);
+  } else if (type == "point") {
+    draw_line(map, {first}, kRadius, label);
+  } else if (type == "points") {
     for (const Corner& one : corners) draw_line(map, {one}, kRadius, label);
-    return;
+  } else if (type == "mask") {
+    draw_mask(path, shape, corners, map, label);
+  } else {
+    return false;
   }
-  if (type == "mask") return draw_mask(path, shape, corners, map, label);
-  throw InvalidInput("a shape is of the unknown type '" + type + "'");
+  return true;
 }
 
 Rgb color_of(const Json& json, std::int32_t id) {
@@ -183,8 +187,12 @@ JsonPicture labelme_of(const fs::path& path, const Json& json, const FieldShape&
   std::map<std::string, std::int32_t> drawn;
   for (const Json& one : json.at("shapes")) {
     const auto name = one.at("label").get<std::string>();
-    if (!is_unlabeled(name)) drawn[name] = names.id_of(name);
-    draw_shape(path, one, picture.labels, is_unlabeled(name) ? 0 : drawn[name]);
+    const std::int32_t id = is_unlabeled(name) ? 0 : names.id_of(name);
+    if (!draw_shape(path, one, picture.labels, id)) {
+      picture.unknown.insert(one.at("shape_type").get<std::string>());
+    } else if (id != 0) {
+      drawn[name] = id;
+    }
   }
   for (const auto& [name, id] : drawn) {
     if (std::ranges::find(picture.labels, id) == picture.labels.end()) {

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <variant>
 #include <vector>
@@ -19,6 +20,7 @@ struct JsonPicture {
   std::string file_name;  ///< Of the picture; may be empty.
   Image<std::int32_t> labels;
   std::vector<std::string> unseen{};  ///< Names of shapes that no pixel belongs to.
+  std::set<std::string> unknown{};    ///< Types of shapes that are not read.
 };
 
 /// Ids of labels that files know by name: of `known` labels, else free ones in the order in which

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <fstream>
 #include <random>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -212,6 +213,20 @@ class LabelExportTest : public QObject {
     QCOMPARE(picture(read.labels), QString("1....../.1111../.1331../.1111../......./"));
     QCOMPARE(names.labels().size(), std::size_t{2});
     QCOMPARE(names.labels()[1].color, (Rgb{1, 2, 3}));
+  }
+
+  void shapesThatLabelmeDoesNotKnow_areLeftOutAndNamed() {
+    write_text(path("view.json"), R"({"shapes": [
+      {"label": "a", "points": [[2, 2], [4, 4]], "shape_type": "ellipse"},
+      {"label": "b", "points": [[0, 0], [0, 2], [2, 2], [2, 0]]}],
+      "imagePath": "", "imageHeight": 5, "imageWidth": 5})");
+    io::LabelNames names({});
+
+    const io::LabelJson labels = io::read_label_json(path("view.json"), names);
+
+    const auto& read = std::get<io::JsonPicture>(labels);
+    QCOMPARE(read.unknown, std::set<std::string>{"ellipse"});
+    QVERIFY(read.unseen.empty());
   }
 
   void linesAndPointsOfLabelme_areTenPixelsWide() {
