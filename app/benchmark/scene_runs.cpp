@@ -294,9 +294,10 @@ std::vector<std::string> write_label_pictures(const std::filesystem::path& folde
 
 const LabelingDisparity& SceneRuns::disparity_for(const LabelerParameters& way,
                                                   const Progress& progress) {
-  auto& disparity = way.features == FeatureSet::ImageTruth ? truth_ : estimate_;
-  if (!disparity) disparity = find_labeling_disparity(open_.scene, way, {}, progress);
-  return *disparity;
+  const bool is_true = way.features == FeatureSet::ImageTruth;
+  const auto found = disparities_.find(is_true);
+  if (found != disparities_.end()) return found->second;
+  return disparities_[is_true] = find_labeling_disparity(open_.scene, way, {}, progress);
 }
 
 void SceneRuns::label_and_judge(const LabelerParameters& way, const Progress& progress,

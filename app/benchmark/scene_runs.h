@@ -13,7 +13,7 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <optional>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -83,7 +83,7 @@ class SceneRuns {
 
   const BenchmarkOptions& options_;
   const LoadedScene& open_;
-  std::optional<LabelingDisparity> estimate_, truth_;  // that ways to label share
+  std::map<bool, LabelingDisparity> disparities_;  // by whether they are true
 };
 
 /// Files of a benchmark, named below its folder. All are written atomically; all functions that

@@ -202,8 +202,7 @@ std::vector<ViewCorrection> corrections_of(const Model& model, const Matrix3& ro
   }
   std::vector<ViewCorrection> corrections(views);
   for (std::size_t v = 0; v < views; ++v) {
-    Eigen::Map<Vector8>(corrections[v].parameters.data()) =
-        solve_symmetric(normal[v], right[v]);
+    Eigen::Map<Vector8>(corrections[v].parameters.data()) = solve_symmetric(normal[v], right[v]);
   }
   return corrections;
 }

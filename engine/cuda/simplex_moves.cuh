@@ -52,8 +52,10 @@ struct SimplexLimits {
     const bool inside = y >= 0 && x >= 0;
     const bool down = y + 1 < fields.height, right = x + 1 < fields.width;
     const float here = inside ? fields.limit * fields.weights[fields.pixel(problem, y, x)] : 0.0F;
-    const float along = kPairSide + kPairDiagonal * static_cast<float>((y == 0 ? 1 : 0) + (down ? 0 : 1));
-    const float aside = kPairSide + kPairDiagonal * static_cast<float>((x == 0 ? 1 : 0) + (right ? 0 : 1));
+    const float along =
+        kPairSide + kPairDiagonal * static_cast<float>((y == 0 ? 1 : 0) + (down ? 0 : 1));
+    const float aside =
+        kPairSide + kPairDiagonal * static_cast<float>((x == 0 ? 1 : 0) + (right ? 0 : 1));
     of[0] = right ? here * along : 0;
     of[1] = down ? here * aside : 0;
     of[2] = of[3] = right && down ? here * kPairDiagonal : 0;

@@ -242,7 +242,6 @@ float median_on_device(const float* values, int count, const DeviceStream& strea
   return ranked_on_device(values, count, {count / 2}, stream).front();
 }
 
-
 __global__ void divide(VolumeView<float> costs, const float* caps, float mean) {
   const int x = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
   const int y = static_cast<int>(blockIdx.y);

@@ -6,8 +6,8 @@
 #include "engine/core/isa.h"
 #include "engine/core/parallel.h"
 #include "engine/core/progress.h"
-#include "engine/disparity/kernels/shared_constants.h"
 #include "engine/disparity/kernels/net_kernel.h"
+#include "engine/disparity/kernels/shared_constants.h"
 #include "engine/disparity/net_layers.h"
 
 #include <fmt/format.h>

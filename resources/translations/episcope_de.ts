@@ -3567,6 +3567,10 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <source>Some labels have other ids than in the file.</source>
         <translation>Einige Labels haben andere Nummern als in der Datei.</translation>
     </message>
+    <message>
+        <source>Processed pictures, no light field: %1</source>
+        <translation>Fertige Bilder, kein Lichtfeld: %1</translation>
+    </message>
 </context>
 <context>
     <name>episcope::FocusController</name>
@@ -8956,6 +8960,18 @@ s</translation>
     <message>
         <source>steps</source>
         <translation>Stufen</translation>
+    </message>
+    <message>
+        <source>choosing sides</source>
+        <translation>Seiten werden gewählt</translation>
+    </message>
+    <message>
+        <source>estimating views</source>
+        <translation>Ansichten werden geschätzt</translation>
+    </message>
+    <message>
+        <source>marking invalid pixels</source>
+        <translation>ungültige Pixel werden markiert</translation>
     </message>
 </context>
 <context>

@@ -342,9 +342,9 @@ std::string verb_branch(const json& verb) {
   int number = 0;
   for (const json& each : verb.at("positionals")) {
     const bool is_method = ++number == 1 && !methods.empty();
-    branch +=
-        fmt::format("        '{}:{}:{}'\n", each.at("several") ? "*" : std::to_string(number),
-                    escaped(text(each, "name")), is_method ? "(" + names(methods) + ")" : "_files");
+    branch += fmt::format("        '{}:{}:{}'\n", each.at("several") ? "*" : std::to_string(number),
+                          escaped(text(each, "name")),
+                          is_method ? fmt::format("({})", names(methods)) : "_files");
   }
   branch += methods.empty() ? "      )\n" : "      )\n      case $words[2] in\n";
   for (const json& method : methods) {

@@ -112,7 +112,7 @@ class SweepRuns : public QObject {
 
   /// Begins a sweep over these points (`sweep_points`) and returns its id. Precondition: none runs,
   /// and its scenes are open.
-  std::uint64_t run(Sweep sweep, const std::vector<ParameterSet>& points) {
+  quint64 run(Sweep sweep, const std::vector<ParameterSet>& points) {
     Work work;
     work.base = sweep.base;
     work.points = points;

@@ -41,9 +41,9 @@ namespace {
 
 /// What a file holds beside arrays that `read_array_maps` knows.
 struct OtherArrays {
-  std::function<bool(const ArrayEntry&)> owns;  ///< Arrays that it alone reads.
+  std::function<bool(const ArrayEntry&)> owns{};  ///< Arrays that it alone reads.
   /// Adds them to the parts, which hold samples and maps in the order of the file.
-  std::function<void(SceneParts&, ConventionReport&, const Progress&)> add;
+  std::function<void(SceneParts&, ConventionReport&, const Progress&)> add{};
   bool is_in_memory = false;  ///< No file is there, and nothing beside it.
 };
 
@@ -106,7 +106,6 @@ void decode_luma_chroma(const std::string& name, LightField::Samples& samples,
 }
 
 constexpr std::size_t kFewestListed = 4;
-
 
 namespace fs = std::filesystem;
 

@@ -67,8 +67,8 @@ void CarryTest::surfaces_moveAndHide() {
 }
 
 void CarryTest::withoutMaps_isRefused() {
-  QVERIFY_THROWS_EXCEPTION(
-      InvalidInput, static_cast<void>(propagate_to_views({}, {{}, {1, 3}}, Progress())));
+  QVERIFY_THROWS_EXCEPTION(InvalidInput,
+                           static_cast<void>(propagate_to_views({}, {{}, {1, 3}}, Progress())));
 }
 
 void CarryTest::allViews_areCloseAndInOrder() {

@@ -2,8 +2,8 @@
 #include "engine/labeling/regularizer.h"
 
 #include "engine/core/error.h"
-#include "engine/labeling/pixel_features.h"
 #include "engine/labeling/label_review.h"
+#include "engine/labeling/pixel_features.h"
 #include "engine/labeling/ray_labeling.h"
 #include "engine/scenes/builtin.h"
 #include "tests/cpu_time.h"
