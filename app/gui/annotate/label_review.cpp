@@ -12,9 +12,9 @@
 #include "widgets/controls/picture.h"
 #include "widgets/controls/text.h"
 
-#include <QCoreApplication>
 #include <QAction>
 #include <QComboBox>
+#include <QCoreApplication>
 #include <QDialog>
 #include <QScrollArea>
 
