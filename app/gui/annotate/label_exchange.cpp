@@ -436,8 +436,10 @@ bool LabelImporter::eventFilter(QObject* watched, QEvent* event) {
 void LabelImporter::passOn(const QList<QUrl>& urls, QObject* window) {
   QMimeData data;
   data.setUrls(urls);
+  QDragEnterEvent enter({}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
   QDropEvent drop({}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
   const QScopedValueRollback passing_on(is_passing_on_, true);
+  QCoreApplication::sendEvent(window, &enter);  // else Qt drops it on nothing
   QCoreApplication::sendEvent(window, &drop);
 }
 

@@ -403,8 +403,10 @@ void LabelExchangeTest::lightFieldOnAnnotate_isOpened() {
   f.window.bench().frame.showTab("annotate");
   QMimeData data;
   data.setUrls({QUrl::fromLocalFile(f.writeScene("objects", WindowFixture::smallOptions()))});
+  QDragEnterEvent enter({50, 50}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
   QDropEvent drop(QPointF(50, 50), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
 
+  QCoreApplication::sendEvent(&f.window, &enter);
   QCoreApplication::sendEvent(&f.window, &drop);
 
   QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().session.scenes().size(), std::size_t{2}, kPatience);
