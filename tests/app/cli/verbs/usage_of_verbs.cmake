@@ -129,7 +129,7 @@ foreach(line IN LISTS table)
   separate_arguments(arguments UNIX_COMMAND "${line}")
   expect("wrong usage" 2 ARGS ${arguments})
 endforeach()
-expect_files(. cache l.h5 pictures r.h5 r.pfm scene)
+expect_files(. l.h5 pictures r.h5 r.pfm scene)
 
 # The table has every verb.
 run_cli(--help)
