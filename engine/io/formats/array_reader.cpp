@@ -15,7 +15,6 @@
 #include "engine/io/models/array_maps.h"
 #include "engine/io/models/array_samples.h"
 #include "engine/io/models/choose_layout.h"
-#include "engine/io/models/load_views.h"
 #include "engine/io/models/mat5.h"
 #include "engine/io/models/names/grid_names.h"
 #include "engine/io/models/numpy_file.h"
@@ -105,7 +104,80 @@ void decode_luma_chroma(const std::string& name, LightField::Samples& samples,
       samples);
 }
 
+constexpr std::size_t kYuvPlanes = 3;
 constexpr std::size_t kFewestListed = 4;
+
+/// 3N×H×W as N×3×H×W.
+ArrayShape grouped(const ArrayShape& list) {
+  return {list[0] / kYuvPlanes, kYuvPlanes, list[1], list[2]};
+}
+
+class GroupedInput : public ArrayInput {
+ public:
+  explicit GroupedInput(std::unique_ptr<ArrayInput> list)
+      : ArrayInput(list->path(), grouped(list->shape()), list->type()), list_(std::move(list)) {}
+  [[nodiscard]] bool is_sequential() const override { return list_->is_sequential(); }
+
+ private:
+  void read_block(const ArrayShape& start, const ArrayShape& count,
+                  std::uint8_t* out) const override {
+    const ArrayShape part{count[1], count[2], count[3]};
+    const std::size_t bytes = element_count(part) * byte_size(type());
+    for (std::size_t i = 0; i < count[0]; ++i, out += bytes) {
+      list_->read_raw({(start[0] + i) * kYuvPlanes + start[1], start[2], start[3]}, part, out);
+    }
+  }
+
+  std::unique_ptr<ArrayInput> list_;
+};
+
+class GroupedFile : public ArrayFile {
+ public:
+  GroupedFile(const ArrayFile& file, const std::string& list)
+      : ArrayFile(file.path(), file.form()), file_(file), list_(list) {
+    for (ArrayEntry entry : file.entries()) {
+      entry.parts.clear();  // the file itself puts them together
+      if (entry.name == list) entry.shape = grouped(entry.shape);
+      add(std::move(entry));
+    }
+  }
+
+ private:
+  [[nodiscard]] std::unique_ptr<ArrayInput> open_stored(const ArrayEntry& entry) const override {
+    const auto& all = file_.entries();
+    auto array = file_.open(*std::ranges::find(all, entry.name, &ArrayEntry::name));
+    if (entry.name != list_) return array;
+    return std::make_unique<GroupedInput>(std::move(array));
+  }
+
+  const ArrayFile& file_;
+  std::string list_;
+};
+
+bool may_be_stacked(const ArrayEntry& entry) {
+  constexpr std::size_t kAxes = 3;
+  return entry.shape.size() == kAxes && entry.order == IndexOrder::C && entry.stated_axes.empty() &&
+         entry.parts.empty() && entry.shape[0] % kYuvPlanes == 0 &&
+         entry.shape[0] / kYuvPlanes >= kFewestListed;
+}
+
+/// The file as if a list of 3N grey pictures in C order, 3N×H×W, were one of N colored ones,
+/// N×3×H×W, if the pictures are the channels of views one after the other, as networks take them:
+/// then views move, and channels do not. Null for other files, and where options say what is meant.
+/// `file` must outlive it.
+std::unique_ptr<ArrayFile> with_stacked_channels(const ArrayFile& file,
+                                                 const OpenOptions& options) {
+  if (!options.axes.empty() || !options.dataset.empty()) return nullptr;
+  const std::vector<const ArrayEntry*> fields = light_fields_of(file, {});
+  if (fields.size() != 1 || !may_be_stacked(*fields.front())) return nullptr;
+  const ArrayEntry& list = *fields.front();
+  const std::vector<ArrayLayout> layouts = possible_layouts(list.shape, list.order);
+  if (layouts.size() != 1 || layouts.front().axes != "nyx") return nullptr;
+  const ArrayLayout as_grid{grouped(list.shape), "vuyx"};
+  const ViewAxes axes = measure_parallax(GroupedInput(file.open(list)), as_grid);
+  if (!are_rather_channels(axes.along_u, axes.along_v)) return nullptr;
+  return std::make_unique<GroupedFile>(file, list.name);
+}
 
 namespace fs = std::filesystem;
 
@@ -242,7 +314,6 @@ class SingleReading {
     fit_to_grid(file_, options_, chosen_);
     progress.step("reading views");
     read_views(progress.part(0.05, 0.65));
-    show_read_center();
     progress.step("reading maps");
     read_maps(progress.part(0.65, 0.75));
     read_others(progress.part(0.75, 0.8));
@@ -254,24 +325,11 @@ class SingleReading {
   }
 
  private:
-  /// Whether a view can be read without the others.
-  [[nodiscard]] bool can_show_first() const {
-    return !array_->is_sequential() && !chosen_.layout.views_are_fastest();
-  }
   void show_center() const {
-    if (!options_.on_center_view || !can_show_first()) return;
+    if (!options_.on_center_view || array_->is_sequential()) return;
     const GridShape grid = chosen_.layout.grid();
     options_.on_center_view(array_preview(*array_, chosen_.layout, grid.center()), parts_.info,
                             grid);
-  }
-  void show_read_center() const {
-    if (!options_.on_center_view || can_show_first()) return;
-    const GridShape grid = grid_of(parts_.samples);
-    std::visit(
-        [&]<class T>(const ViewStack<T>& stack) {
-          options_.on_center_view(preview_rgb<T>(stack.view(grid.center())), parts_.info, grid);
-        },
-        parts_.samples);
   }
   void read_views(const Progress& progress) {
     ArraySamples read = read_samples(*array_, chosen_.layout, progress);
@@ -341,7 +399,10 @@ class SingleReading {
 /// can be one; IoError, Undecided.
 SceneProbe probe_arrays(const ArrayFile& file, const OpenOptions& options) {
   const auto several = MultiFieldFile::find(file, options);
-  if (!several) return probe_single(file, options);
+  if (!several) {
+    const auto colored = with_stacked_channels(file, options);
+    return probe_single(colored ? *colored : file, options);
+  }
   SceneProbe probe = probe_single(*several->one(file, several->index(file, options)), options);
   if (!several->is_named(options)) probe.frames = several->count();
   return probe;
@@ -362,7 +423,8 @@ Scene read_array_scene(const ArrayFile& file, const char* reader, const OpenOpti
                       "leave out --frame",
                       file.path().string(), options.frame));
     }
-    return SingleReading(file, reader, options, more).read(progress);
+    const auto colored = with_stacked_channels(file, options);
+    return SingleReading(colored ? *colored : file, reader, options, more).read(progress);
   }
   const int index = several->index(file, options);
   Scene scene = SingleReading(*several->one(file, index), reader, options, {}).read(progress);

@@ -124,7 +124,7 @@ class EvenBrightnessTest : public QObject {
   }
 
   void blocks_seeThemEvenToo() {
-    const Estimator& estimator = find_estimator("st_ch_l");
+    const Estimator& estimator = find_estimator("epi_l");
 
     const BlockwiseRun blocks = estimator.in_blocks(*uneven_, {}, {}, Progress());
 
