@@ -40,7 +40,7 @@ struct BenchmarkOptions {
 using SceneLoader = std::function<Scene(const std::string& input, const Progress&)>;
 
 /// Runs every method with its default parameters on every scene. Judges methods and submissions in
-/// the center view by both protocols, and labels in all views (LabelRuns). With `has_search`, also
+/// the center view by both protocols, and labels in all views (SceneRuns). With `has_search`, also
 /// tries every point of `search_grid`. Writes tables, pictures and maps into the folder, renewed
 /// after every scene. One scene is in memory at a time.
 ///
