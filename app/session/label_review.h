@@ -7,6 +7,7 @@
 #include "engine/core/light_field.h"
 #include "engine/core/progress.h"
 #include "engine/core/scene.h"
+#include "engine/evaluation/label_quality.h"
 #include "engine/evaluation/metrics.h"
 #include "engine/labeling/label_review.h"
 

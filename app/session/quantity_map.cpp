@@ -3,7 +3,7 @@
 
 #include "app/session/result_fit.h"
 #include "engine/core/text.h"
-#include "engine/evaluation/metrics.h"
+#include "engine/evaluation/label_quality.h"
 #include "engine/labeling/pixel_features.h"
 #include "engine/labeling/ray_labeling.h"
 

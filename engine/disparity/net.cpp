@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/net.h"
+#include "engine/disparity/net_evidence.h"
 
 #include "engine/core/error.h"
 #include "engine/core/image.h"

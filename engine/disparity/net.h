@@ -5,6 +5,7 @@
 #include "engine/core/light_field.h"
 #include "engine/core/progress.h"
 #include "engine/cuda/net.h"
+#include "engine/disparity/net_evidence.h"
 #include "engine/disparity/net_layers.h"
 #include "engine/disparity/net_weights.h"
 

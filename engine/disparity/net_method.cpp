@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/net_method.h"
+#include "engine/disparity/propagate_planes.h"
 
 #include "engine/core/error.h"
 #include "engine/core/finding.h"
@@ -7,7 +8,7 @@
 #include "engine/disparity/carried_run.h"
 #include "engine/disparity/disparity_range.h"
 #include "engine/disparity/net.h"
-#include "engine/disparity/net_layers.h"
+#include "engine/disparity/net_evidence.h"
 #include "engine/disparity/net_weights.h"
 #include "engine/disparity/stereo_costs.h"
 

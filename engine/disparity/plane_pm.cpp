@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/plane_pm.h"
+#include "engine/disparity/propagate_planes.h"
 
 #include "engine/core/estimate.h"
 #include "engine/core/finding.h"

@@ -3,6 +3,7 @@
 
 #include "engine/core/parameter.h"
 #include "engine/core/text_table.h"
+#include "engine/evaluation/label_quality.h"
 #include "engine/evaluation/metrics.h"
 
 #include <algorithm>

@@ -4,8 +4,8 @@
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
 #include "engine/labeling/label_review.h"
-#include "engine/labeling/ray_labeling.h"
 #include "engine/labeling/regularizer.h"
+#include "engine/labeling/solve_views.h"
 #include "engine/solvers/simplex_labeling.h"
 
 #include <fmt/format.h>

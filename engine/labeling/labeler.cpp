@@ -7,8 +7,8 @@
 #include "engine/labeling/correct_views.h"
 #include "engine/labeling/pixel_features.h"
 #include "engine/labeling/predict_from_strokes.h"
-#include "engine/labeling/ray_labeling.h"
 #include "engine/labeling/reweight_by_color.h"
+#include "engine/labeling/solve_views.h"
 
 #include <fmt/format.h>
 

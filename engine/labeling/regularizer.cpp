@@ -4,7 +4,7 @@
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
 #include "engine/core/scene.h"
-#include "engine/labeling/ray_labeling.h"
+#include "engine/labeling/solve_views.h"
 #include "engine/solvers/linked_labeling.h"
 
 #include <fmt/format.h>

@@ -3,7 +3,7 @@
 
 #include "app/session/labeling_inputs.h"
 #include "engine/core/scene.h"
-#include "engine/evaluation/metrics.h"
+#include "engine/evaluation/label_quality.h"
 #include "engine/labeling/labeler.h"
 #include "tests/accuracy/strokes.h"
 

@@ -4,7 +4,7 @@
 // labeler that knows nothing yet, in the same run. The demo scene (11 labels), or the archive
 // folder still_life (13) where EPISCOPE_SHARED_DATA names its parent.
 #include "engine/disparity/registry.h"
-#include "engine/evaluation/metrics.h"
+#include "engine/evaluation/label_quality.h"
 #include "engine/io/open.h"
 #include "engine/labeling/labeler.h"
 #include "engine/scenes/builtin.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/image.h"
 #include "engine/core/parallel.h"
-#include "engine/labeling/ray_labeling.h"
+#include "engine/labeling/solve_views.h"
 #include "tests/cuda/label_runs.h"
 
 #include <cstring>

@@ -5,7 +5,7 @@
 #include "app/gui/shell/workbench.h"
 #include "app/session/session.h"
 #include "engine/evaluation/metrics.h"
-#include "engine/evaluation/region_metrics.h"
+#include "engine/evaluation/resolved_errors.h"
 #include "widgets/panels/metric_table.h"
 
 #include <map>

@@ -13,6 +13,7 @@
 #include "engine/disparity/registry.h"
 #include "engine/evaluation/metrics.h"
 #include "engine/evaluation/region_metrics.h"
+#include "engine/evaluation/resolved_errors.h"
 #include "widgets/canvas/tile_wall.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/controls/line_plot.h"

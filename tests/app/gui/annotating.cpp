@@ -2,7 +2,7 @@
 #include "tests/app/gui/annotating.h"
 
 #include "app/session/session.h"
-#include "engine/evaluation/metrics.h"
+#include "engine/evaluation/label_quality.h"
 #include "widgets/canvas/view_canvas.h"
 
 #include <QTest>

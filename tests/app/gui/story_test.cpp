@@ -7,7 +7,7 @@
 #include "app/gui/scene/overlay.h"
 #include "app/gui/shell/commands.h"
 #include "app/gui/shell/jobs.h"
-#include "engine/evaluation/metrics.h"
+#include "engine/evaluation/label_quality.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
 #include "widgets/canvas/view_canvas.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/evaluation/region_metrics.h"
+#include "engine/evaluation/resolved_errors.h"
 #include "tests/engine/evaluation/high_res_maps.h"
 #include "tests/test_main.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/error.h"
-#include "engine/evaluation/metrics.h"
+#include "engine/evaluation/label_quality.h"
 #include "tests/test_main.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/evaluation/metrics.h"
+#include "engine/evaluation/label_quality.h"
 #include "tests/test_main.h"
 
 namespace episcope::in_label_quality_test {

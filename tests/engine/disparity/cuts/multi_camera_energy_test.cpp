@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "engine/disparity/multi_camera_energy.h"
 #include "engine/disparity/kz02.h"
 #include "engine/disparity/matching_cost.h"
 #include "tests/engine/disparity/light_fields.h"

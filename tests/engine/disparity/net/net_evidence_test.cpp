@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/disparity/net_layers.h"
+#include "engine/disparity/net_evidence.h"
 #include "tests/engine/disparity/light_fields.h"
 #include "tests/engine/disparity/net/net_vectors.h"
 #include "tests/test_main.h"

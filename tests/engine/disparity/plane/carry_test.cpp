@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/disparity/carried_run.h"
+#include "engine/disparity/propagate_planes.h"
 
 #include "engine/core/error.h"
 #include "engine/disparity/epi_c.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/labeling/ray_labeling.h"
+#include "engine/labeling/solve_views.h"
 
 #include "tests/test_main.h"
 

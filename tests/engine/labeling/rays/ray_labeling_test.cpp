@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/labeling/regularizer.h"
+#include "engine/labeling/solve_views.h"
 
 #include "engine/core/error.h"
 #include "engine/labeling/label_review.h"
